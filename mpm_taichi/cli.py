@@ -1,0 +1,149 @@
+"""The command line: arguments, exit codes, nothing else.
+
+0 done, 1 the run failed, 2 bad input, 130 and 143 interrupted."""
+
+import argparse
+import difflib
+import json
+import os
+import sys
+from pathlib import Path
+
+from . import __version__
+from .errors import InputError, RunError
+
+COMMANDS = {
+    "run": "run a scene (the default: `mpm_taichi SCENE`)",
+    "check": "validate and seed a scene, and show the plan: particles, time step, steps",
+    "schema": "print the JSON Schema of scene files, for editors",
+}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        options = parser().parse_args(_with_command(words))
+        return _dispatch(options)
+    except InputError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except RunError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:  # the reader of stdout, `head` say, has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except ImportError as error:
+        return _missing_library(error)
+
+
+def parser() -> argparse.ArgumentParser:
+    top = argparse.ArgumentParser(
+        prog="mpm_taichi",
+        description="Material Point Method simulator",
+        epilog="`python -m mpm_taichi SCENE` is short for `python -m mpm_taichi run SCENE`.",
+        allow_abbrev=False,
+    )
+    top.add_argument("--version", action="version", version=f"mpm_taichi {__version__}")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, text in COMMANDS.items():
+        command = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
+        if name == "schema":
+            continue
+        command.add_argument("scene", type=Path, help="scene file (YAML)")
+        command.add_argument(
+            "--set", action="append", default=[], metavar="KEY=VALUE",
+            help="change a value of the scene: --set bodies[0].velocity=[0,1]",
+        )  # fmt: skip
+        command.add_argument("--device", choices=("cpu", "cuda", "vulkan", "metal"), default="cpu")
+        command.add_argument(
+            "--precision", choices=("f32", "f64"),
+            help="default: the scene's, else f64 on cpu and cuda, f32 on vulkan and metal",
+        )  # fmt: skip
+        command.add_argument(
+            "--threads", type=_positive, help="default: what the size of the scene is worth"
+        )
+        command.add_argument(
+            "--frames", type=_positive, metavar="N", help="number of outputs after the start"
+        )
+        if name == "run":
+            command.add_argument(
+                "-o", "--output", type=Path, metavar="DIR",
+                help="run folder; default: the next of runs/<scene>-001, -002, ...",
+            )  # fmt: skip
+            command.add_argument(
+                "--overwrite", action="store_true", help="replace the run that is in -o DIR"
+            )
+            command.add_argument("--json", action="store_true", help="print run.json to stdout")
+            command.add_argument("-q", "--quiet", action="store_true", help="no progress")
+    return top
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= 2**31 - 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 on (got {text!r})")
+    return int(text)
+
+
+def _with_command(words: list[str]) -> list[str]:
+    """`SCENE ...` and `--options SCENE` become `run ...`."""
+    first = _first_plain_word(words)
+    if first is None:
+        return words
+    word = words[first]
+    if word in COMMANDS:
+        return [word, *words[:first], *words[first + 1 :]]
+    if word.endswith((".yaml", ".yml")):
+        return ["run", *words]
+    close = difflib.get_close_matches(word, COMMANDS, 1)
+    hint = f"; did you mean {close[0]!r}?" if close else f" ({', '.join(COMMANDS)})"
+    raise InputError(f"{word!r} is neither a command nor a .yaml file{hint}")
+
+
+def _first_plain_word(words: list[str]) -> int | None:
+    takes_value = {"-o", "--output", "--set", "--device", "--precision", "--threads", "--frames"}
+    skip = False
+    for number, word in enumerate(words):
+        if skip:
+            skip = False
+        elif word.startswith("-") and len(word) > 1:
+            skip = word in takes_value
+        else:
+            return number
+    return None
+
+
+def _dispatch(options) -> int:
+    from .scene import load_scene, scene_schema
+
+    if options.command == "schema":
+        print(json.dumps(scene_schema(), indent=2))
+        return 0
+    changes = list(options.set)
+    scene = load_scene(options.scene, changes)
+    if options.frames is not None:
+        changes.append(f"output.every={scene.time.end / options.frames!r}")
+        scene = load_scene(options.scene, changes)
+
+    from rich.console import Console
+
+    from . import run
+
+    console = Console(stderr=True, quiet=getattr(options, "quiet", False))
+    if options.command == "check":
+        return run.check(scene, options, console)
+    return run.run(scene, options.scene.stem, options, console)
+
+
+def _missing_library(error: ImportError) -> int:
+    if "cannot open shared object file" not in str(error):
+        raise error
+    library = str(error).split(":")[0]
+    print(
+        f"Taichi needs the system library {library}, which is not installed.\n"
+        "On Debian or Ubuntu:  sudo apt-get install libx11-6",
+        file=sys.stderr,
+    )
+    return 2

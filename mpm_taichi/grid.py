@@ -1,0 +1,68 @@
+"""Nodes of a box of cells: a 1-D field of four-lane records, addressed by one linear index."""
+
+from itertools import product
+from typing import Any
+
+import taichi as ti
+
+from .errors import InputError
+
+PAD = 4  # nodes
+
+
+class Grid:
+    """Node i at (i - ghost) dx holds (momentum [kg m/s], mass [kg]) after P2G and (velocity [m/s],
+    mass) after the grid update, in lanes 0 .. dim - 1 and dim.  With `increment` it has a second
+    record, at i + apart: (impulse of the stress [kg m/s], 0), then (v - v_old [m/s], 0).
+
+    The closed domain [0, size] has `cells` cells and, around them, ghost nodes as wide as the
+    stencil.  `groups` is the number of materials, `mass_cutoff` the mass [kg] up to which a node
+    counts as empty."""
+
+    def __init__(self, cells, dx, basis, groups, increment, mass_cutoff, threads, atomic):
+        self.dim, self.cells, self.dx = len(cells), tuple(cells), dx
+        self.increment, self.threads, self.atomic = increment, threads, atomic
+        self.ghost = basis.support
+        self.lines = list(product(range(basis.support), repeat=self.dim - 1))
+        # Rows and planes are PAD nodes longer than the box: strides of a power of two would put
+        # the lines of a stencil into the same few sets of the first-level cache.
+        nodes = [n + 1 + 2 * self.ghost for n in cells]
+        self.extent = (nodes[0], *(n + PAD for n in nodes[1:]))
+        strides = [1]
+        for n in reversed(self.extent[1:]):
+            strides.insert(0, n * strides[0])
+        self.strides = tuple(strides)
+        self.nodes = self.extent[0] * self.strides[0]
+        # The mask tells LLVM that index + offset cannot overflow (offsets become displacements of
+        # one address), and keeps a lost particle inside the field, longer by one stencil.
+        self.mask = 2 ** (self.nodes - 1).bit_length() - 1
+        self.apart = self.mask + 1 + basis.support * sum(self.strides)
+        length = self.apart * (2 if increment else 1)
+        if length >= 2**31:
+            raise InputError(
+                f"domain.cells: {' x '.join(map(str, cells))} cells need {length:.2e} nodes, more "
+                "than the 2^31 that an index can count: take fewer, larger cells"
+            )
+        self.node = ti.Vector.field(4, float, length)
+        # Slabs of fixed width along axis 0, so that results do not depend on the number of threads.
+        # Two slabs of one color share no node while particles are within a cell of where the sort
+        # found them.
+        self.slab = basis.support + 1
+        self.slabs = 2 * -(-self.extent[0] // (2 * self.slab))
+        self.start = ti.field(int, (groups, self.slabs + 1))  # first particle [group, slab]
+        self.share = ti.field(float, self.slabs)  # part of all particles before a slab's middle
+        self.count = ti.field(int, self.mask + 1)  # of the sort
+        self.active = ti.field(int, 2)  # first and last + 1 node that particles can reach
+        self.speed_squared: Any = ti.field(float, ())  # largest |v|^2 of the nodes in this step
+        self.cut: Any = ti.field(int, ())  # nodes that the cut-off emptied, counted each step
+        numbers = {
+            "dx": dx,
+            "inv_dx": 1.0 / dx,
+            "inverse_moment": (basis.inverse_moment or 0.0) / dx**2,
+            "mass_cutoff": mass_cutoff,
+        }
+        size = ti.types.vector(self.dim, float)
+        self.constants = ti.Struct.field({**dict.fromkeys(numbers, float), "size": size}, shape=())
+        for name, number in numbers.items():
+            self.constants[None][name] = number
+        self.constants[None]["size"] = [n * dx for n in cells]

@@ -1,0 +1,55 @@
+"""For output: motion, stress and energy of each particle, in the order of the scene."""
+
+import numpy as np
+import taichi as ti
+
+from ..runtime import Array, Template
+from .rows import columns, vector
+from .update_stress import load_state
+
+
+@ti.kernel
+def evaluate_particles(
+    particles: Template, group: Template, grid: Template, begin: int, end: int,
+    table: Array,
+):  # fmt: skip
+    """Row id of the table: x, v, H, tau, A, psi, tau_zz."""
+    dim = ti.static(grid.dim)
+    matrix = ti.static(dim * dim)
+    for p in range(begin, end):
+        c, g, H, id = group.constants[None], grid.constants[None], particles.H[p], particles.id[p]
+        x = particles.x[p]
+        v = vector(particles.rows, p, 0, dim) / particles.m[p]
+        A = columns(particles.rows, p, particles.layout.affine, dim) * g.inv_dx
+        still = ti.Matrix.zero(float, dim, dim)
+        H_same, s, tau = group.law.update(c, H, still, 0.0, load_state(group, p - begin))
+        for d in ti.static(range(dim)):
+            table[id, d] = x[d]
+            table[id, dim + d] = v[d]
+            for e in ti.static(range(dim)):
+                at = ti.static(2 * dim + d * dim + e)
+                table[id, at] = H_same[d, e]
+                table[id, at + matrix] = tau[d, e]
+                table[id, at + 2 * matrix] = A[d, e]
+        last = ti.static(2 * dim + 3 * matrix)
+        table[id, last] = group.law.energy_density(c, H_same, s)
+        if ti.static(dim == 2):
+            table[id, last + 1] = group.law.out_of_plane_stress(c, H_same, s)
+
+
+def evaluate(particles, grid):
+    """x [m], v [m/s] [n, dim]; H, tau (Kirchhoff stress, Pa), A (affine momentum, kg/s) [n, dim,
+    dim]; psi (elastic energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
+    n, dim = particles.count, grid.dim
+    table = np.zeros((n, 2 * dim + 3 * dim**2 + 2), particles.dtype)
+    for group in particles.groups:
+        evaluate_particles(particles, group, grid, group.begin, group.end, table)
+    vectors = {"x": 0, "v": dim}
+    matrices = {"H": 2 * dim, "tau": 2 * dim + dim**2, "A": 2 * dim + 2 * dim**2}
+    scalars = {"psi": -2, "tau_zz": -1}
+    table = table.astype(float)
+    return (
+        {name: table[:, at : at + dim] for name, at in vectors.items()}
+        | {name: table[:, at : at + dim**2].reshape(n, dim, dim) for name, at in matrices.items()}
+        | {name: table[:, at] for name, at in scalars.items()}
+    )

@@ -1,0 +1,90 @@
+"""Stage 4: nodes to particles, line by line (sum factorization along the last axis)."""
+
+import taichi as ti
+
+from ..runtime import Template
+from ..stages import stage
+from .blocks import BLOCK, first_block
+from .stencil import grid_coordinate, index, line_slope, line_weight, offset
+
+
+@ti.func
+def gather(first, grid: Template, w, dw, v: Template, B: Template, S: Template):
+    """v += sum w_i n_i, B[d] += sum w_i n_i o_i[d], S[d] += sum n_i dw_i[d] over the records n_i of
+    a stencil, o_i the offset of node i from its first node [cells].
+
+    B and S are lists of vectors and may be empty."""
+    last = ti.static(grid.dim - 1)
+    for lead in ti.static(grid.lines):
+        at = first + offset(grid, lead)
+        zero = ti.Vector.zero(float, 4)
+        line, moment, slope = zero, zero, zero
+        for k in ti.static(range(w.n)):
+            lanes = grid.node[at + k]
+            line += w[k, last] * lanes
+            moment += (k * w[k, last]) * lanes
+            slope += dw[k, last] * lanes
+        w_line = line_weight(w, lead)
+        v += w_line * line
+        if ti.static(B):
+            B[last] += w_line * moment
+            for d in ti.static(range(last)):
+                B[d] += (w_line * lead[d]) * line
+        if ti.static(S):
+            for d in ti.static(range(last)):
+                S[d] += line_slope(w, dw, lead, d) * line
+            S[last] += w_line * slope
+
+
+@ti.func
+def gather_particle(p, particles: Template, grid: Template, basis: Template, transfer: Template):
+    xi = grid_coordinate(particles.x[p], grid)
+    base = basis.first(xi)
+    a = xi - base
+    w, dw = basis.weights(a), basis.slopes(a)
+    first = index(grid, base)
+    zero = ti.Vector.zero(float, 4)
+    v, dv = zero, zero
+    B = [zero for row in particles.layout.affine]
+    S = [zero for row in particles.layout.gradient]
+    gather(first, grid, w, dw, v, B, S)
+    # Rows in the order of memory: then the stores pack into lanes.
+    if ti.static(transfer.increment):
+        gather(first + grid.apart, grid, w, dw, dv, [], [])
+        particles.rows[p, 0] = particles.rows[p, 0] + particles.m[p] * dv
+    else:
+        particles.rows[p, 0] = v
+    for d, row in ti.static(enumerate(particles.layout.affine)):
+        particles.rows[p, row] = B[d] - a[d] * v
+    for d, row in ti.static(enumerate(particles.layout.gradient)):
+        particles.rows[p, row] = S[d]
+    if ti.static(transfer.increment):
+        particles.rows[p, particles.layout.pic] = v
+
+
+@ti.kernel
+def gather_particles(
+    particles: Template, grid: Template, basis: Template, transfer: Template, threads: int
+):
+    if ti.static(grid.atomic):
+        for p in range(particles.count):
+            gather_particle(p, particles, grid, basis, transfer)
+    else:
+        for counter in range(512 * threads):
+            if counter % 512 == 0:
+                worker = counter // 512
+                last = first_block(worker + 1, threads, particles.count)
+                for block in range(first_block(worker, threads, particles.count), last):
+                    start = block * BLOCK
+                    for p in range(start, ti.min(start + BLOCK, particles.count)):
+                        gather_particle(p, particles, grid, basis, transfer)
+
+
+@stage
+def g2p(particles, grid, basis, transfer):
+    """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
+    with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).
+
+    On return the rows hold what was gathered (see kernels/rows.py); x, H and the state are as
+    before."""
+    gather_particles(particles, grid, basis, transfer, grid.threads)

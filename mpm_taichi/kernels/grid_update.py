@@ -1,0 +1,76 @@
+"""Stage 3: momentum to velocity, gravity, walls."""
+
+import taichi as ti
+
+from ..runtime import Template
+from ..stages import stage
+from .blocks import BLOCK, first_block
+
+
+@ti.func
+def apply_walls(v, i, grid: Template, walls: Template):
+    """The rule of each wall acts at its nodes and at the ghost nodes behind it."""
+    for wall in ti.static(walls):
+        i_d = i // grid.strides[wall.axis] % grid.extent[wall.axis] - grid.ghost
+        n = ti.Vector.unit(grid.dim, wall.axis, float)
+        if ti.static(wall.upper):
+            if i_d >= grid.cells[wall.axis]:
+                v = wall.rule.velocity(v, -n)
+        elif i_d <= 0:
+            v = wall.rule.velocity(v, n)
+    return v
+
+
+@ti.func
+def update_node(i, grid: Template, walls: Template, gravity: Template, dt):
+    """Returns |v|^2 of the node."""
+    lanes = grid.node[i]
+    mass = lanes[grid.dim]
+    v = ti.Vector.zero(float, grid.dim)
+    if mass > 0:
+        v_old = v
+        if mass > grid.constants[None].mass_cutoff:
+            v_old = ti.Vector([lanes[d] / mass for d in range(grid.dim)])
+            v = v_old + dt * gravity[None]
+            if ti.static(grid.increment):
+                v += ti.Vector([grid.node[i + grid.apart][d] / mass for d in range(grid.dim)])
+            v = apply_walls(v, i, grid, walls)
+        else:
+            ti.atomic_add(grid.cut[None], 1)
+        for d in ti.static(range(grid.dim)):
+            lanes[d] = v[d]
+        grid.node[i] = lanes
+        if ti.static(grid.increment):
+            for d in ti.static(range(grid.dim)):
+                grid.node[i + grid.apart][d] = v[d] - v_old[d]
+    return v.norm_sqr()
+
+
+@ti.kernel
+def update_nodes(grid: Template, walls: Template, gravity: Template, dt: float, threads: int):
+    if ti.static(grid.atomic):
+        for i in range(grid.active[0], grid.active[1]):
+            ti.atomic_max(grid.speed_squared[None], update_node(i, grid, walls, gravity, dt))
+    else:
+        for counter in range(512 * threads):
+            if counter % 512 == 0:
+                begin, end = grid.active[0], grid.active[1]
+                worker = counter // 512
+                last = first_block(worker + 1, threads, end - begin)
+                fastest = 0.0
+                for block in range(first_block(worker, threads, end - begin), last):
+                    start = begin + block * BLOCK
+                    for i in range(start, ti.min(start + BLOCK, end)):
+                        speed_squared = update_node(i, grid, walls, gravity, dt)
+                        fastest = ti.max(fastest, speed_squared)
+                ti.atomic_max(grid.speed_squared[None], fastest)
+
+
+@stage
+def grid_update(grid, walls, gravity, dt):
+    """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls.
+
+    A node no heavier than the relative cut-off of its basis stands still and is counted in
+    `grid.cut`.  On return a node holds (v, m), with `grid.increment` also v - v_old in the record
+    apart, and `grid.speed_squared` the largest |v_i|^2."""
+    update_nodes(grid, walls, gravity, dt, grid.threads)

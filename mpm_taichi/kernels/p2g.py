@@ -1,0 +1,99 @@
+"""Stage 2: particles to nodes, on a CPU without atomics."""
+
+import taichi as ti
+
+from ..runtime import Template
+from ..stages import stage
+from .stencil import grid_coordinate, index, line_slope, line_weight, offset
+
+
+@ti.func
+def add(node: Template, i, lanes, atomic: Template):
+    if ti.static(atomic):
+        node[i] += lanes
+    else:
+        node[i] = node[i] + lanes  # "a = a + b" is never atomic
+
+
+@ti.func
+def scatter(first, grid: Template, w, dw, q, A: Template, T: Template):
+    """node_i += w_i (q + A o_i) + T dw_i over a stencil, q being the value at its first node and
+    o_i the offset of node i from there [cells].
+
+    A and T are lists of columns and may be empty.  Walks line by line: to a line by adding columns,
+    then along it.  One kind of record per walk, and scalars multiplied before vectors: otherwise
+    the stores are not packed into lanes (P2G costs up to twice as much)."""
+    last = ti.static(grid.dim - 1)
+    for lead in ti.static(grid.lines):
+        at = first + offset(grid, lead)
+        w_line = line_weight(w, lead)
+        value = q
+        if ti.static(A):
+            for d in ti.static(range(last)):
+                value += A[d] * lead[d]
+        value *= w_line
+        if ti.static(T):
+            for d in ti.static(range(last)):
+                value += T[d] * line_slope(w, dw, lead, d)
+        for k in ti.static(range(w.n)):
+            lanes = w[k, last] * value
+            if ti.static(A):
+                lanes = w[k, last] * (value + (A[last] * w_line) * k)
+            if ti.static(T):
+                lanes += (dw[k, last] * w_line) * T[last]
+            add(grid.node, at + k, lanes, grid.atomic)
+
+
+@ti.func
+def scatter_particle(p, particles: Template, grid: Template, basis: Template, transfer: Template):
+    xi = grid_coordinate(particles.x[p], grid)
+    base = basis.first(xi)
+    a = xi - base
+    w, dw = basis.weights(a), basis.slopes(a)
+    first = index(grid, base)
+    q = particles.rows[p, 0]
+    A = [particles.rows[p, row] for row in particles.layout.affine]
+    T = [particles.rows[p, row] for row in particles.layout.gradient]
+    if ti.static(A):
+        for d in ti.static(range(grid.dim)):
+            q -= A[d] * a[d]
+    if ti.static(transfer.increment):
+        scatter(first, grid, w, dw, q, A, [])
+        scatter(first + grid.apart, grid, w, dw, 0.0 * q, [], T)
+    else:
+        scatter(first, grid, w, dw, q, A, T)
+
+
+@ti.kernel
+def scatter_particles(
+    particles: Template,
+    grid: Template,
+    basis: Template,
+    transfer: Template,
+    color: int,
+    threads: int,
+):
+    """On a CPU the slabs of one color, which share no node: each worker takes whole slabs."""
+    if ti.static(grid.atomic):
+        for p in range(particles.count):
+            scatter_particle(p, particles, grid, basis, transfer)
+    else:
+        for counter in range(512 * threads):
+            if counter % 512 == 0:
+                for pair in range(grid.slabs // 2):
+                    slab = 2 * pair + color
+                    if int(grid.share[slab] * threads) == counter // 512:
+                        for g in range(particles.group_count):
+                            for p in range(grid.start[g, slab], grid.start[g, slab + 1]):
+                                scatter_particle(p, particles, grid, basis, transfer)
+
+
+@stage
+def p2g(particles, grid, basis, transfer):
+    """m_i = sum_p w_ip m_p and (m v)_i = sum_p w_ip (m_p v_p + A_p (x_i - x_p)) + T_p grad w_ip.
+
+    On return a node holds (momentum and impulse of the stress [kg m/s], mass [kg]); with
+    `transfer.increment` the impulse is in the record apart."""
+    scatter_particles(particles, grid, basis, transfer, 0, grid.threads)
+    if not grid.atomic:
+        scatter_particles(particles, grid, basis, transfer, 1, grid.threads)

@@ -1,0 +1,78 @@
+"""Stage 5: particles alone.  One launch per material, so that laws never meet in one kernel."""
+
+import taichi as ti
+
+from ..runtime import Template
+from ..stages import stage
+from .blocks import BLOCK, first_block
+from .rows import columns, put_columns, put_momentum, vector
+
+
+@ti.func
+def load_state(group: Template, i):
+    """History of particle i of the group; 0 for a law that has none."""
+    if ti.static(group.has_state):
+        return group.state[i]
+    else:
+        return 0
+
+
+@ti.func
+def update_particle(
+    p, particles: Template, group: Template, grid: Template, transfer: Template,
+    begin, dt, dt_next,
+):  # fmt: skip
+    dim = ti.static(grid.dim)
+    c, g = group.constants[None], grid.constants[None]
+    m, V0 = particles.m[p], particles.V0[p]
+    v_pic = vector(particles.rows, p, particles.layout.pic, dim)
+    v = transfer.velocity(vector(particles.rows, p, 0, dim) / m, v_pic)
+    B = columns(particles.rows, p, particles.layout.affine, dim) * g.dx
+    S = columns(particles.rows, p, particles.layout.gradient, dim) * g.inv_dx
+    C, L = transfer.gradients(B, S, g.inverse_moment)
+    H = particles.H[p]
+    H_new, s, tau = group.law.update(c, H + dt * (L + L @ H), L, dt, load_state(group, p - begin))
+    particles.H[p] = H_new
+    if ti.static(group.has_state):
+        group.state[p - begin] = s
+    T = (-dt_next * V0) * tau
+    put_momentum(particles.rows, p, m, v)
+    if ti.static(transfer.affine):
+        A = transfer.affine_momentum(m, C, T, g.inverse_moment)
+        put_columns(particles.rows, p, particles.layout.affine, A * g.dx)
+    put_columns(particles.rows, p, particles.layout.gradient, T * g.inv_dx)
+    x = particles.x[p] + dt * v_pic
+    particles.x[p] = x
+    if not (x.min() >= 0.0 and (g.size - x).min() >= 0.0):
+        ti.atomic_min(particles.lost[None], particles.id[p])
+
+
+@ti.kernel
+def update_particles(
+    particles: Template, group: Template, grid: Template, transfer: Template,
+    begin: int, end: int, dt: float, dt_next: float, threads: int,
+):  # fmt: skip
+    if ti.static(grid.atomic):
+        for p in range(begin, end):
+            update_particle(p, particles, group, grid, transfer, begin, dt, dt_next)
+    else:
+        for counter in range(512 * threads):
+            if counter % 512 == 0:
+                worker = counter // 512
+                last = first_block(worker + 1, threads, end - begin)
+                for block in range(first_block(worker, threads, end - begin), last):
+                    start = begin + block * BLOCK
+                    for p in range(start, ti.min(start + BLOCK, end)):
+                        update_particle(p, particles, group, grid, transfer, begin, dt, dt_next)
+
+
+@stage
+def update_stress(particles, group, grid, transfer, dt, dt_next):
+    """H <- H + dt L (I + H), stress and state by the law, x <- x + dt sum_i w_ip v_i.
+
+    On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
+    T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
+    has left the closed domain, or the number of particles."""
+    update_particles(
+        particles, group, grid, transfer, group.begin, group.end, dt, dt_next, grid.threads
+    )

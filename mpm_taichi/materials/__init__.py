@@ -1,0 +1,26 @@
+"""Materials: the law that turns deformation into stress.
+
+A material is a frozen model (what a scene gives, with units) and device functions on the class:
+
+- `constants(cell_size)`  numbers that the device functions read as `c.name`
+- `state(dim)`            history variables, name -> value at the start (empty: the law has none)
+- `wave_speed()`          of pressure waves in the undeformed material [m/s]
+- `dilatation_modulus(dim)`  M_d = dim lam + 2 mu [Pa], of a lone particle's time-step limit
+- `needs_logarithm`       whether the device functions take logarithms (not in f64 on every device)
+- `update(c, H, L, dt, s)`  -> H, s, tau [Pa], with H = F - I already advanced by dt, L the velocity
+  gradient [1/s] and s the state.  With L = 0 and dt = 0 it only evaluates the stress
+- `energy_density(c, H, s)`  elastic energy per reference volume [J/m^3]
+- `out_of_plane_stress(c, H, s)`  tau_zz in plane strain [Pa]
+
+Strain measures come from H without cancellation: b - I = H + H^T + H H^T, J - 1 from invariants.
+"""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from .linear_elastic import LinearElastic
+from .neo_hookean import NeoHookean
+
+MATERIALS = (LinearElastic, NeoHookean)
+Material = Annotated[LinearElastic | NeoHookean, Field(discriminator="type")]

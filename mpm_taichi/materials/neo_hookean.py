@@ -1,0 +1,38 @@
+"""Compressible neo-Hookean solid: Bonet and Wood (2008), Nonlinear Continuum Mechanics, 6.4.3."""
+
+from typing import ClassVar, Literal
+
+import taichi as ti
+
+from .elastic import Elastic
+from .invariants import left_strain, log_volume_ratio, volume_strain
+
+
+class NeoHookean(Elastic):
+    """psi = mu/2 (tr b - 3) - mu ln J + lam/2 (ln J)^2;  tau = mu (b - I) + lam ln J I.
+
+    Stiffens in compression, rotates with the body; J must stay above 0."""
+
+    type: Literal["neo_hookean"]
+
+    needs_logarithm: ClassVar[bool] = True
+
+    @staticmethod
+    @ti.func
+    def update(c, H, L, dt, s):
+        tau = c.mu * left_strain(H)
+        pressure = c.lam * log_volume_ratio(volume_strain(H))
+        for d in ti.static(range(H.n)):
+            tau[d, d] += pressure
+        return H, s, tau
+
+    @staticmethod
+    @ti.func
+    def energy_density(c, H, s):
+        log_J = log_volume_ratio(volume_strain(H))
+        return 0.5 * c.mu * left_strain(H).trace() - c.mu * log_J + 0.5 * c.lam * log_J**2
+
+    @staticmethod
+    @ti.func
+    def out_of_plane_stress(c, H, s):
+        return c.lam * log_volume_ratio(volume_strain(H))

@@ -1,0 +1,61 @@
+"""frames/frame_0000.png, ...: a picture at each output."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..renderers.picture import Frame, draw
+from ..renderers.png import write_png
+
+
+class Images:
+    """Pictures by the offscreen renderer.  Where the scene gives no range, the color scale is the
+    widest that the run has shown so far."""
+
+    def __init__(self, folder: Path, simulation, style):
+        folder.mkdir()
+        self.folder, self.style = folder, style
+        self.count = 0
+        self.low, self.high = (0.0, 0.0) if style.range is None else style.range
+        self.last: Path | None = None
+
+    def record(self, simulation, is_output):
+        if not is_output:
+            return
+        scene, snapshot = simulation.scene, simulation.snapshot
+        value = self._value(snapshot)
+        if value is not None and self.style.range is None:
+            self.low, self.high = min(self.low, value.min()), max(self.high, value.max())
+        edge = snapshot.initial_volume ** (1 / scene.dimension)
+        frame = Frame(
+            position=snapshot.position,
+            radius=0.5 * edge,
+            body=simulation.body_of_particle,
+            body_names=[body.name for body in scene.bodies],
+            time=snapshot.time,
+            longest_time=simulation.end,
+            title=scene.title,
+            domain_size=tuple(scene.domain.size),
+            cells=tuple(scene.domain.cells),
+            quantity=self.style.color_by,
+            value=value,
+            value_range=(float(self.low), float(self.high)),
+        )
+        self.last = self.folder / f"frame_{self.count:04d}.png"
+        write_png(
+            self.last,
+            draw(frame, self.style.grid, self.style.size),
+            {"Title": scene.title, "time": repr(snapshot.time)},
+        )
+        self.count += 1
+
+    def close(self):
+        """Pictures are whole as soon as they are there."""
+
+    def _value(self, snapshot) -> np.ndarray | None:
+        return {
+            "body": lambda: None,
+            "speed": lambda: snapshot.speed,
+            "pressure": lambda: snapshot.pressure,
+            "stress": lambda: snapshot.von_mises_stress,
+        }[self.style.color_by]()

@@ -1,0 +1,25 @@
+"""Hat functions: the basis of Sulsky, Chen and Schreyer (1994)."""
+
+import numpy as np
+
+
+class Linear:
+    """w = 1 - |r| for |r| < 1."""
+
+    name = "linear"
+    support = 2
+    inverse_moment = None
+    steepness = None
+    bulk_limit = 0.76
+
+    @staticmethod
+    def first(xi):
+        return np.floor(xi).astype(int)
+
+    @staticmethod
+    def weights(a):
+        return np.array([1 - abs(a - k) for k in range(2)])
+
+    @staticmethod
+    def slopes(a):
+        return np.array([-np.ones_like(a), np.ones_like(a)])

@@ -1,0 +1,13 @@
+"""A frictionless wall that material can neither enter nor leave."""
+
+import numpy as np
+
+
+class Slip:
+    """v <- v - (v . n) n."""
+
+    name = "slip"
+
+    @staticmethod
+    def velocity(v, n):
+        return v - np.dot(v, n) * n

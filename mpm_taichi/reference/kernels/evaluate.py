@@ -1,0 +1,19 @@
+"""For output: motion, stress and energy of each particle, in the order of the scene."""
+
+import numpy as np
+
+
+def evaluate(particles, grid):
+    """x [m], v [m/s] [n, dim]; H, tau (Kirchhoff stress, Pa), A (affine momentum, kg/s) [n, dim,
+    dim]; psi (elastic energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
+    tau = np.zeros((particles.count, grid.dim, grid.dim))
+    tau_zz, psi = np.zeros((2, particles.count))
+    for group in particles.groups:
+        for p in group.members:
+            c, H, still = group.constants, particles.H[p], np.zeros((grid.dim, grid.dim))
+            H_same, s, tau[p] = group.law.update(c, H, still, 0.0, group.state[p])
+            psi[p] = group.law.energy_density(c, H_same, s)
+            if grid.dim == 2:
+                tau_zz[p] = group.law.out_of_plane_stress(c, H_same, s)
+    carried = {name: getattr(particles, name) for name in ("x", "v", "H", "A")}
+    return carried | {"tau": tau, "psi": psi, "tau_zz": tau_zz}

@@ -1,0 +1,30 @@
+"""Stage 3: momentum to velocity, gravity, walls."""
+
+import numpy as np
+
+
+def apply_walls(v, i, grid, walls):
+    """The rule of each wall acts at its nodes and at the ghost nodes behind it."""
+    for wall in walls:
+        i_d = i[wall.axis] - grid.ghost
+        n = np.eye(grid.dim)[wall.axis]
+        if wall.upper:
+            if i_d >= grid.cells[wall.axis]:
+                v = wall.rule.velocity(v, -n)
+        elif i_d <= 0:
+            v = wall.rule.velocity(v, n)
+    return v
+
+
+def grid_update(grid, walls, gravity, dt):
+    """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls.
+
+    A node no heavier than the cut-off stands still and is counted."""
+    for i in np.ndindex(grid.shape):
+        if grid.m[i] > grid.mass_cutoff:
+            grid.v_old[i] = grid.mv[i] / grid.m[i]
+            v = grid.v_old[i] + dt * gravity + grid.impulse[i] / grid.m[i]
+            grid.v[i] = apply_walls(v, i, grid, walls)
+        elif grid.m[i] > 0:
+            grid.cut += 1
+    grid.speed_squared = (grid.v**2).sum(axis=-1).max()

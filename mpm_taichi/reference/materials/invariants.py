@@ -1,0 +1,20 @@
+"""Strain measures of H = F - I that lose no digits when H is small."""
+
+import numpy as np
+
+
+def left_strain(H):
+    """b - I = H + H^T + H H^T."""
+    return H + H.T + H @ H.T
+
+
+def volume_strain(H):
+    """J - 1 = tr H + (second invariant) + det H; in 2D the second invariant is det H."""
+    if len(H) == 2:
+        return H.trace() + np.linalg.det(H)
+    return H.trace() + 0.5 * (H.trace() ** 2 - (H @ H).trace()) + np.linalg.det(H)
+
+
+def log_volume_ratio(strain):
+    """ln(1 + strain)."""
+    return np.log1p(strain)

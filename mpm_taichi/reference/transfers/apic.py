@@ -1,0 +1,29 @@
+"""Affine particle-in-cell: Jiang, Schroeder, Selle, Teran and Stomakhin (2015)."""
+
+from math import sqrt
+
+
+class APIC:
+    """v_p = sum_i w_i v_i and C = B D^-1; the force acts along grad w and L = sum_i v_i grad w_i^T.
+    Keeps angular momentum where the stencil is whole."""
+
+    affine = True
+    gradient = True
+    increment = False
+
+    @staticmethod
+    def isolated_limit(basis):
+        """sqrt(2 / (H - D^-1 / 2))."""
+        return sqrt(2 / (basis.steepness - basis.inverse_moment / 2))
+
+    @staticmethod
+    def affine_momentum(m, C, T, D_inverse):
+        return m * C
+
+    @staticmethod
+    def velocity(v_flip, v_pic):
+        return v_pic
+
+    @staticmethod
+    def gradients(B, S, D_inverse):
+        return D_inverse * B, S

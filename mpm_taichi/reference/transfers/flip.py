@@ -1,0 +1,13 @@
+"""Fluid-implicit particle: Brackbill and Ruppel (1986); the transfer of Sulsky et al. (1994)."""
+
+from .pic import PIC
+
+
+class FLIP(PIC):
+    """v_p += sum_i w_i (v_i - v_i^old), while x_p moves with sum_i w_i v_i."""
+
+    increment = True
+
+    @staticmethod
+    def velocity(v_flip, v_pic):
+        return v_flip

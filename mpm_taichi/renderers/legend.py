@@ -1,0 +1,131 @@
+"""The texts around the domain: title, time, scale bar, and what the colors mean."""
+
+import functools
+import unicodedata
+from typing import NamedTuple
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from . import palette
+from .camera import Camera
+from .quantities import Quantity
+from .rasterizer import draw_discs, draw_lines
+from .units import prefix, round_length, tick_labels, with_unit
+
+
+class Text(NamedTuple):
+    at: tuple[float, float]  # pixel (column, row) of the anchor
+    words: str
+    size: float  # pixels
+    color: np.ndarray
+    anchor: str  # Pillow's: l, m, r for the column and s for the baseline
+
+
+@functools.cache
+def font(size: float):
+    return ImageFont.load_default(size)
+
+
+def length(words: str, size: float) -> float:
+    return font(size).getlength(words)
+
+
+def printable(words: str) -> str:
+    """One line in ASCII, which is about all that the font has: no accents, "?" for the rest."""
+    letters = unicodedata.normalize("NFKD", " ".join(words.split()))
+    plain = (c for c in letters if not unicodedata.combining(c))
+    return "".join(
+        c if c.isascii() else "-" if unicodedata.category(c) == "Pd" else "?" for c in plain
+    )
+
+
+def shortened(words: str, size: float, room: float) -> str:
+    """The words, or as many of their letters as the room [pixels] holds, and three dots."""
+    words = printable(words)
+    if length(words, size) <= room:
+        return words
+    while words and length(words + "...", size) > room:
+        words = words[:-1]
+    return words.rstrip() + "..."
+
+
+def heading(camera: Camera, title: str, time: float, longest_time: float) -> list[Text]:
+    em, left, right = camera.em, camera.margin, camera.width - camera.margin
+    factor, name = prefix(min(longest_time, 1.0))
+    clock = f"t = {time / factor:.3f} {name}s"
+    room = right - left
+    if camera.narrow:
+        beside = Text((left, 3.4 * em), clock, em, palette.FAINT_INK, "ls")
+    else:
+        beside = Text((right, 1.9 * em), clock, em, palette.FAINT_INK, "rs")
+        room -= length(clock, em) + 1.5 * em
+    title = shortened(title, 1.2 * em, room)
+    return [Text((left, 1.9 * em), title, 1.2 * em, palette.INK, "ls"), beside]
+
+
+def scale_bar(image: np.ndarray, camera: Camera) -> list[Text]:
+    """A bar of a round length: below the domain in 2D, on the lower front edge of its box in 3D."""
+    em = camera.em
+    if len(camera.center) == 2:
+        meters = round_length(5 * em / camera.scale)
+        start = np.array([camera.margin, camera.height - 3.1 * em])
+        end = start + np.array([meters * camera.scale, 0])
+        left, row = camera.margin, camera.height - 1.4 * em
+    else:
+        length_x, _, front = 2 * camera.center
+        meters = round_length(length_x / 3)
+        start, end = camera.pixel_of(np.array([(0, 0, front), (meters, 0, front)]))
+        middle, row = (start + end) / 2 + (-0.3 * em, 1.3 * em)
+        left = max(middle - length(with_unit(meters, "m"), em), camera.margin)
+    draw_lines(image, start[None], end[None], palette.INK, thickness=max(1, em / 7))
+    return [Text((left, row), with_unit(meters, "m"), em, palette.INK, "ls")]
+
+
+def color_bar(
+    image: np.ndarray, camera: Camera, name: str, quantity: Quantity, low: float, high: float
+) -> list[Text]:
+    em = camera.em
+    columns, right = 9 * em, camera.width - camera.margin
+    left, row = right - columns, camera.height - round(3.4 * em)
+    shades = quantity.colors(np.linspace(0, 1, columns))
+    image[row : row + round(0.6 * em), left:right] = shades
+    labels, unit = tick_labels([low, (low + high) / 2, high], quantity.unit)
+    ends = zip((left, (left + right) / 2, right), labels, ("ls", "ms", "rs"), strict=True)
+    numbers = [
+        Text((column, camera.height - 1.4 * em), label, 0.9 * em, palette.FAINT_INK, anchor)
+        for column, label, anchor in ends
+    ]
+    return [Text((left, row - 0.5 * em), f"{name} [{unit}]", em, palette.INK, "ls"), *numbers]
+
+
+def body_names(image: np.ndarray, camera: Camera, names: list[str]) -> list[Text]:
+    """A dot and a name for each body, and "+ k" for the k bodies that there is no room for."""
+    em, row = camera.em, camera.height - 1.4 * camera.em
+    left, right = camera.margin + 6 * em, camera.width - camera.margin
+    names = [shortened(name, em, right - left - 4 * em) for name in names]
+    gap = 1.2 * em
+    starts = np.cumsum([0.0] + [1.1 * em + length(name, em) + gap for name in names])
+    ends = starts[1:] - gap
+    shown = np.searchsorted(ends, right - left, side="right")
+    texts = []
+    if shown < len(names):
+        shown = max(1, np.searchsorted(ends, right - left - 3 * em))
+        texts.append(Text((right, row), f"+ {len(names) - shown}", em, palette.FAINT_INK, "rs"))
+        right -= 3 * em
+    columns = right - (starts[shown] - gap) + starts[:shown]
+    radius = np.full(shown, 0.35 * em)
+    draw_discs(image, columns + radius, row - radius, radius, palette.body(np.arange(shown)))
+    for column, name in zip(columns, names, strict=False):
+        texts.append(Text((column + 1.1 * em, row), name, em, palette.INK, "ls"))
+    return texts
+
+
+def write(image: np.ndarray, texts: list[Text]) -> np.ndarray:
+    """The texts over an image of uint8 [height, width, 3]."""
+    picture = Image.fromarray(image)
+    pen = ImageDraw.Draw(picture)
+    for text in texts:
+        color = palette.eight_bit(text.color)
+        pen.text(text.at, text.words, color, font(text.size), anchor=text.anchor)
+    return np.array(picture)

@@ -1,0 +1,155 @@
+"""One picture of a moment: the domain, its grid, the particles, and the texts around them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from . import legend, palette
+from .camera import Camera, corners, fit
+from .quantities import QUANTITIES, shown_range
+from .rasterizer import draw_discs, draw_lines
+
+FINEST_CELL = 4.0
+"""Lines of a grid with cells of fewer pixels are left out; they fade in up to twice as many."""
+
+HAZE = 0.25
+"""Part of the background in the color of a particle at the back of a 3D domain."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What there is to see at one moment, in SI units."""
+
+    position: np.ndarray  # [n, dim]; a particle with a NaN is skipped
+    radius: np.ndarray  # [n], half the edge of the particle's cube
+    body: np.ndarray  # [n], index into body_names
+    body_names: list[str]
+    time: float
+    domain_size: tuple[float, ...]  # [dim]
+    cells: tuple[int, ...]  # [dim]
+    title: str = ""
+    quantity: str = "body"  # or one of QUANTITIES
+    value: np.ndarray | None = None  # [n], of the quantity; a NaN is shown in gray
+    value_range: tuple[float, float] = (0.0, 1.0)
+    longest_time: float = 0.0  # the end of the run: it decides between s, ms, us
+
+
+def grid_plane(size: np.ndarray) -> tuple[int, int]:
+    """The two axes of the plane that shows the grid: the domain in 2D, its floor in 3D."""
+    return (0, 1) if len(size) == 2 else (0, 2)
+
+
+def grid_lines(size: np.ndarray, cells: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Starts and ends [n, dim] of the lines between the cells of the grid plane."""
+    starts, ends = [], []
+    for along, across in (grid_plane(size), grid_plane(size)[::-1]):
+        start = np.zeros((cells[across] - 1, len(size)))
+        start[:, across] = np.arange(1, cells[across]) * size[across] / cells[across]
+        end = start.copy()
+        end[:, along] = size[along]
+        starts.append(start)
+        ends.append(end)
+    return np.concatenate(starts), np.concatenate(ends)
+
+
+def box_edges(size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Starts and ends [n, dim] of the edges of the domain, those at the corner `size` last."""
+    at = corners(size)
+    pairs = [(a, b) for b in range(len(at)) for a in range(b) if (a ^ b).bit_count() == 1]
+    return at[[a for a, _ in pairs]], at[[b for _, b in pairs]]
+
+
+def backdrop(camera: Camera, size: np.ndarray) -> np.ndarray:
+    """A new image with the background and the grid plane."""
+    across, along = (np.eye(len(size))[axis] * size for axis in grid_plane(size))
+    quad = camera.pixel_of(np.array([0 * across, across, across + along, along]))
+    plane = Image.new("L", (camera.width, camera.height))
+    ImageDraw.Draw(plane).polygon([tuple(at) for at in quad], 1)
+    colors = np.array([palette.BACKGROUND, palette.PANEL], np.float32)
+    return np.take(colors, np.asarray(plane), axis=0)
+
+
+def draw_grid(image: np.ndarray, camera: Camera, frame: Frame, opacity: float) -> None:
+    size = np.asarray(frame.domain_size)
+    finest = min(camera.scale * size[axis] / frame.cells[axis] for axis in grid_plane(size))
+    opacity *= np.clip(finest / FINEST_CELL - 1, 0, 1)
+    if opacity > 0:
+        start, end = (camera.pixel_of(x) for x in grid_lines(size, frame.cells))
+        draw_lines(image, start, end, palette.LINE, opacity=opacity)
+
+
+def particle_colors(frame: Frame) -> np.ndarray:
+    if frame.quantity == "body":
+        return palette.body(frame.body)
+    quantity = QUANTITIES[frame.quantity]
+    low, high = shown_range(quantity, *frame.value_range)
+    assert frame.value is not None
+    return quantity.colors((frame.value - low) / (high - low))
+
+
+def draw_as_discs(image: np.ndarray, camera: Camera, frame: Frame) -> None:
+    """The particles of a 2D domain.
+
+    Small discs are widened, from 4 pixels down to 2 by up to sqrt(2), so that they cover their
+    square and a body shows its color without dark gaps; none is smaller than 0.7 pixels."""
+    sight = camera.look(frame.position)
+    radius = sight.scale * frame.radius
+    radius *= 1 + (np.sqrt(2) - 1) * np.clip(2 - radius / 2, 0, 1)
+    draw_discs(image, sight.column, sight.row, np.maximum(radius, 0.7), particle_colors(frame))
+
+
+def draw_as_spheres(image: np.ndarray, camera: Camera, frame: Frame) -> None:
+    """The particles of a 3D domain, the far ones first and paled by their distance."""
+    sight = camera.look(frame.position)
+    radius = np.maximum(sight.scale * frame.radius, 0.7)
+    half = np.linalg.norm(camera.center)
+    nearness = np.clip(np.nan_to_num(0.5 + 0.5 * sight.toward / half), 0, 1)
+    color = particle_colors(frame)
+    color += HAZE * (1 - nearness)[:, None] * (palette.PANEL - color)
+    order = np.argsort((65535 * nearness).astype(np.uint16), kind="stable")  # a radix sort
+    sorted_by_depth = [values[order] for values in (sight.column, sight.row, radius, color)]
+    draw_discs(image, *sorted_by_depth, lit=True)
+
+
+def draw_shadow(image: np.ndarray, camera: Camera, frame: Frame) -> None:
+    """The shadow of a light straight above, on the floor of a 3D domain."""
+    x, _, z = frame.position.T
+    inside = (x >= 0) & (x <= frame.domain_size[0]) & (z >= 0) & (z <= frame.domain_size[2])
+    feet = np.stack([x, np.zeros_like(x), z], axis=-1)[inside]
+    sight = camera.look(feet)
+    color = np.broadcast_to(palette.SHADOW, feet.shape)
+    draw_discs(image, sight.column, sight.row, sight.scale * frame.radius[inside], color)
+
+
+def draw(frame: Frame, grid_opacity: float = 0.5, size: int = 800) -> np.ndarray:
+    """The picture of a frame, uint8 [height, width, 3], row 0 at the top.
+
+    The longer side of the domain is `size` pixels long; the margins come on top of it.  The same
+    frame gives the same bytes, whatever the precision and threads of the run."""
+    box = np.asarray(frame.domain_size, float)
+    camera = fit(box, size)
+    image = backdrop(camera, box)
+    start, end = (camera.pixel_of(x) for x in box_edges(box))
+    if len(box) == 2:
+        draw_grid(image, camera, frame, grid_opacity)
+        draw_lines(image, start, end, palette.LINE)
+        draw_as_discs(image, camera, frame)
+    else:
+        draw_shadow(image, camera, frame)
+        draw_grid(image, camera, frame, grid_opacity)
+        draw_lines(image, start[:-3], end[:-3], palette.LINE)
+        draw_as_spheres(image, camera, frame)
+        draw_lines(image, start[-3:], end[-3:], palette.LINE, opacity=0.6)  # before the particles
+    longest_time = max(frame.time, frame.longest_time)
+    texts = legend.heading(camera, frame.title, frame.time, longest_time)
+    texts += legend.scale_bar(image, camera)
+    if frame.quantity == "body":
+        texts += legend.body_names(image, camera, frame.body_names)
+    else:
+        quantity = QUANTITIES[frame.quantity]
+        shown = shown_range(quantity, *frame.value_range)
+        texts += legend.color_bar(image, camera, frame.quantity, quantity, *shown)
+    image *= 255
+    image += 0.5
+    return legend.write(image.astype(np.uint8), texts)

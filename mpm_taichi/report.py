@@ -1,0 +1,65 @@
+"""run.json: what ran, how, for how long, and what it kept."""
+
+import dataclasses
+import platform
+import time
+from importlib.metadata import version
+
+from . import __version__, stages
+
+PACKAGES = ("taichi", "numpy", "gmsh", "meshio", "pydantic")
+
+
+class Report:
+    """Grows with the run; `content` is the JSON of the moment."""
+
+    def __init__(self, simulation, command: list[str]):
+        self.simulation, self.command = simulation, command
+        self.started = time.time()
+
+    def content(self, status: str, history=None, error: str | None = None) -> dict:
+        simulation = self.simulation
+        time_step = simulation.time_step
+        result = {
+            "status": status,
+            "error": error,
+            "command": self.command,
+            "started": time.strftime("%Y-%m-%dT%H:%M:%S%z", time.localtime(self.started)),
+            "wall_seconds": time.time() - self.started,
+            "versions": {
+                "mpm_taichi": __version__,
+                "python": platform.python_version(),
+                **{package: version(package) for package in PACKAGES},
+            },
+            "machine": platform.platform(),
+            "device": simulation.device,
+            "precision": simulation.precision,
+            "threads": simulation.threads,
+            "time": simulation.time,
+            "steps": simulation.step_count,
+            "time_step": {
+                "shortest": time_step.shortest if simulation.step_count else None,
+                "longest": time_step.longest if simulation.step_count else None,
+                "chosen_by": "scene" if time_step.given is not None else "auto",
+                "limits_at_start": [
+                    limit._asdict() for limit in time_step.limits(simulation.start_speed)
+                ],
+            },
+            "seeding": [dataclasses.asdict(report) for report in simulation.seeding],
+            "timing": {
+                "first_calls_seconds": dict(stages.first_calls),
+                "stage_seconds": dict(stages.seconds),
+                "sorts": simulation.solver.sorts,
+            },
+            "warnings": simulation.warnings(),
+        }
+        if history is not None and history.first is not None:
+            result["conservation"] = conservation(history.first, history.last)
+        return result
+
+
+def conservation(first: dict, last: dict) -> dict:
+    """Start, end and change of what a free system keeps."""
+    kept = [n for n in first if n == "mass" or n.startswith(("momentum", "angular_momentum"))]
+    kept += [n for n in first if n.endswith("_energy")]
+    return {n: {"start": first[n], "end": last[n], "change": last[n] - first[n]} for n in kept}

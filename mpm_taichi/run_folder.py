@@ -1,0 +1,69 @@
+"""The folder of a run: it describes itself, and no run overwrites another unasked."""
+
+import json
+import shutil
+from itertools import count
+from pathlib import Path
+
+from .errors import InputError
+
+CONTENTS = ("scene.yaml", "run.json", "history.csv", "frames")
+"""What a run writes, and all that `overwrite` removes."""
+
+
+def refuse(wanted: Path | None, overwrite: bool) -> None:
+    """InputError where `create` would have to touch what is not a run, or was not asked to."""
+    if wanted is None or not wanted.exists():
+        return
+    if not wanted.is_dir():
+        raise InputError(f"-o {wanted}: this is a file; name a folder for the run")
+    if not any(wanted.iterdir()):
+        return
+    if not overwrite:
+        raise InputError(
+            f"-o {wanted}: the folder is not empty; name another one, or add --overwrite to "
+            "replace the run in it"
+        )
+    if not (wanted / "run.json").is_file():
+        raise InputError(
+            f"-o {wanted} --overwrite: the folder holds no run (no run.json), so nothing in it is "
+            "replaced; name another one"
+        )
+
+
+def create(scene_name: str, wanted: Path | None, overwrite: bool) -> Path:
+    """A folder without a run: `wanted`, or the first free one of runs/<scene>-001, -002, ..."""
+    refuse(wanted, overwrite)
+    try:
+        if wanted is None:
+            return _first_free(Path("runs"), scene_name)
+        for name in CONTENTS:
+            path = wanted / name
+            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+        wanted.mkdir(parents=True, exist_ok=True)
+        return wanted
+    except OSError as error:
+        raise InputError(f"the run folder cannot be made: {error}") from None
+
+
+def _first_free(parent: Path, name: str) -> Path:
+    parent.mkdir(exist_ok=True)
+    for number in count(1):
+        folder = parent / f"{name}-{number:03d}"
+        try:
+            folder.mkdir()
+            return folder
+        except FileExistsError:
+            continue
+    raise AssertionError  # count() does not end
+
+
+def write_text(path: Path, text: str) -> None:
+    """Atomic: the file is the old one or the new one, never a part."""
+    part = path.with_name(path.name + ".part")
+    part.write_text(text, encoding="utf-8")
+    part.replace(path)
+
+
+def write_json(path: Path, content: dict) -> None:
+    write_text(path, json.dumps(content, indent=2) + "\n")

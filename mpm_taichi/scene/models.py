@@ -1,0 +1,218 @@
+"""The words of a scene file: one frozen model per section."""
+
+from functools import reduce
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, ValidationError, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from ..bases import BASES, BasisName
+from ..boundaries import RULES, RuleName, Wall
+from ..materials import Material
+from ..model import Model, Positive, Vector
+from ..sampling import Sampling
+from ..shapes import Shape
+from ..transfers import APICChoice, Transfer
+from .checks import across
+
+
+class Walls(Model):
+    """A boundary rule for each side of the domain."""
+
+    left: RuleName = Field(default="none", description="rule at x = 0")
+    right: RuleName = Field(default="none", description="rule at the largest x")
+    bottom: RuleName = Field(default="none", description="rule at y = 0")
+    top: RuleName = Field(default="none", description="rule at the largest y")
+    back: RuleName = Field(default="none", description="rule at z = 0 (3D)")
+    front: RuleName = Field(default="none", description="rule at the largest z (3D)")
+
+
+SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+
+
+class Domain(Model):
+    """The closed box [0, size], cut into equal cubes."""
+
+    size: Annotated[list[Positive], Field(min_length=2, max_length=3)] = Field(
+        description="edges of the domain [m]; two entries: 2D (plane strain), three: 3D"
+    )
+    cells: Annotated[list[Annotated[int, Field(ge=1)]], Field(min_length=2, max_length=3)] = Field(
+        description="number of cells along each axis"
+    )
+    walls: RuleName | Walls = Field(
+        default="none", description="one rule for all sides, or one for each"
+    )
+
+    @property
+    def dimension(self) -> int:
+        return len(self.size)
+
+    @property
+    def cell_size(self) -> float:
+        """dx [m]."""
+        return self.size[0] / self.cells[0]
+
+    @property
+    def rules(self) -> tuple[Wall, ...]:
+        """The sides that have a wall, with its rule."""
+        rules = {rule.name: rule for rule in RULES}
+        return tuple(
+            Wall(axis, upper, rules[word])
+            for axis, sides in enumerate(SIDES[: self.dimension])
+            for upper, word in zip((False, True), map(self._word, sides), strict=True)
+            if word != "none"
+        )
+
+    def _word(self, side: str) -> str:
+        return getattr(self.walls, side) if isinstance(self.walls, Walls) else self.walls
+
+
+class Method(Model):
+    """How the material point method is put together."""
+
+    basis: BasisName = Field(
+        default="quadratic", description="functions that carry values to the nodes"
+    )
+    transfer: Transfer = Field(
+        default=APICChoice(type="apic", force="mls"),
+        description="what particles and nodes exchange",
+    )
+    stress_update: Literal["usl"] = Field(default="usl", description="usl: stress is updated last")
+    mass_cutoff: float | None = Field(
+        default=None,
+        ge=0,
+        lt=1,
+        description="nodes up to this part of the lightest particle's mass are taken as empty, and "
+        "counted; default: rounding errors for the linear basis, none for splines",
+    )
+    precision: Literal["f32", "f64"] | None = Field(
+        default=None, description="floating-point numbers; not given: what suits the device"
+    )
+
+    @property
+    def basis_class(self) -> type:
+        return next(basis for basis in BASES if basis.name == self.basis)
+
+    @property
+    def transfer_class(self) -> type:
+        return self.transfer.transfer
+
+
+class Time(Model):
+    """How long, and in which steps."""
+
+    end: Positive = Field(description="simulated time [s]")
+    step: Positive | Literal["auto"] = Field(
+        default="auto", description="time step [s], or auto: as large as is stable, times safety"
+    )
+    safety: float = Field(
+        default=0.5, gt=0, le=1, description="fraction of the stable step used by auto"
+    )
+
+
+class Body(Model):
+    """A piece of material at the start."""
+
+    name: str = Field(min_length=1, description="name, different for each body")
+    material: str = Field(description="key of one of the materials")
+    shape: Shape | None = Field(default=None, description="region that the body fills")
+    particles: Sampling = Field(description="how the body becomes material points")
+    velocity: Vector | None = Field(
+        default=None, description="velocity at the start [m/s]; default 0"
+    )
+
+
+def _increasing(limits: list[float] | None) -> list[float] | None:
+    if limits is not None and limits[0] >= limits[1]:
+        raise ValueError(f"must increase (got {limits})")
+    return limits
+
+
+class Images(Model):
+    """Pictures of the particles."""
+
+    color_by: Literal["body", "speed", "pressure", "stress"] = Field(
+        default="speed",
+        description="what the color shows: body, speed [m/s], pressure, von Mises [Pa]",
+    )
+    grid: float = Field(default=0.25, ge=0, le=1, description="opacity of the grid overlay")
+    size: int = Field(default=900, ge=64, le=8192, description="longer side [pixels]")
+    range: Annotated[
+        Annotated[list[float], Field(min_length=2, max_length=2)] | None,
+        AfterValidator(_increasing),
+    ] = Field(
+        default=None, description="values at the ends of the color scale; default: from the data"
+    )
+
+
+class History(Model):
+    """The table of energies and momenta."""
+
+    every_steps: int = Field(default=10, ge=1, description="steps between two rows")
+
+
+class Output(Model):
+    """What a run writes."""
+
+    every: Positive | None = Field(
+        default=None,
+        description="time between two outputs [s]; default: a hundredth of the simulated time",
+    )
+    images: Images | Literal["none"] = Field(default=Images(), description="pictures, or none")
+    history: History = Field(default=History(), description="table of energies and momenta")
+
+
+class Scene(Model):
+    """A documented experiment.  A Scene that exists has passed the checks of `checks.py`."""
+
+    version: Literal[1] = Field(description="version of this format")
+    title: str = Field(default="", description="what the scene shows")
+    source: str = Field(default="", description="where it is from")
+    domain: Domain = Field(description="the box in which things happen, and its grid")
+    method: Method = Field(default=Method(), description="the parts of the method")
+    time: Time = Field(description="duration and time step")
+    gravity: Vector | None = Field(default=None, description="acceleration [m/s^2]; default 0")
+    materials: Annotated[dict[str, Material], Field(min_length=1)] = Field(
+        description="materials by name"
+    )
+    bodies: Annotated[list[Body], Field(min_length=1)] = Field(description="bodies at the start")
+    output: Output = Field(default=Output(), description="what the run writes")
+
+    @model_validator(mode="after")
+    def _checked(self):
+        sections = {name: getattr(self, name) for name in type(self).model_fields}
+        sections["bodies"] = dict(enumerate(self.bodies))
+        faults = [
+            InitErrorDetails(
+                type=PydanticCustomError("scene", "{text}", {"text": text}),
+                loc=place,
+                input=reduce(_member, place, self),
+            )
+            for place, text in across(sections)
+        ]
+        if faults:
+            raise ValidationError.from_exception_data("Scene", faults)
+        return self
+
+    @property
+    def dimension(self) -> int:
+        return self.domain.dimension
+
+    @property
+    def cell_size(self) -> float:
+        """dx [m]."""
+        return self.domain.cell_size
+
+    @property
+    def gravity_vector(self) -> list[float]:
+        """[m/s^2], one entry per axis."""
+        return [0.0] * self.dimension if self.gravity is None else self.gravity
+
+    @property
+    def output_interval(self) -> float:
+        """Time between two outputs [s]."""
+        return self.time.end / 100 if self.output.every is None else self.output.every
+
+
+def _member(value, part):
+    return getattr(value, part) if isinstance(value, Model) else value[part]

@@ -1,0 +1,85 @@
+"""The grammar of scene files as JSON Schema, and what it says about one key."""
+
+from functools import cache
+
+from .models import Scene
+
+
+@cache
+def scene_schema() -> dict:
+    """JSON Schema (2020-12) of scene files."""
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        **Scene.model_json_schema(),
+    }
+
+
+def follow(location: tuple, data) -> tuple[tuple, dict, dict]:
+    """Path in the file, rule for the value there and rule for the mapping or list that holds it.
+
+    `location` is pydantic's: after a union it names the branch taken, which the file does not
+    have.  A rule is a part of the schema, {} where the schema says nothing."""
+    path, holder, rule = (), {}, scene_schema()
+    branch_comes = False
+    for part in location:
+        if branch_comes:
+            branch_comes = False
+            continue
+        holder = _branch(rule, data)
+        if isinstance(part, int):
+            rule = holder.get("items", {})
+        else:
+            rule = holder.get("properties", {}).get(part, holder.get("additionalProperties") or {})
+        rule = resolve(rule)
+        data = _member(data, part)
+        path = (*path, part)
+        branch_comes = "discriminator" in rule or is_union(rule)
+    return path, rule, holder
+
+
+def value_at(path: tuple, data):
+    """What the file has at a path; None where it has nothing."""
+    for part in path:
+        data = _member(data, part)
+    return data
+
+
+def resolve(rule: dict) -> dict:
+    """A rule with its reference and its `or null` taken away."""
+    if "allOf" in rule:  # around references, until pydantic 2.8
+        rule = rule["allOf"][0]
+    if "$ref" in rule:
+        rule = scene_schema()["$defs"][rule["$ref"].rsplit("/", 1)[1]]
+    branches = choices(rule)
+    return resolve(branches[0]) if len(branches) == 1 else rule
+
+
+def choices(rule: dict) -> list[dict]:
+    """The branches of a union, except null."""
+    return [branch for branch in rule.get("anyOf", []) if branch != {"type": "null"}]
+
+
+def is_union(rule: dict) -> bool:
+    return len(choices(rule)) > 1
+
+
+def _branch(rule: dict, data) -> dict:
+    """The rule of the branch that the data took."""
+    rule = resolve(rule)
+    if "discriminator" in rule:
+        word = _member(data, rule["discriminator"]["propertyName"])
+        reference = rule["discriminator"]["mapping"].get(word) if isinstance(word, str) else None
+        return resolve({"$ref": reference}) if reference else {}
+    kind = {dict: "object", list: "array"}.get(type(data))
+    for branch in map(resolve, choices(rule)):
+        if "discriminator" in branch or branch.get("type") == kind:
+            return _branch(branch, data)
+    return rule
+
+
+def _member(data, part):
+    if isinstance(data, dict):
+        return data.get(part)
+    if isinstance(data, list) and isinstance(part, int) and part < len(data):
+        return data[part]
+    return None

@@ -1,0 +1,35 @@
+"""How paths, values and near misses are put into words."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+def path_text(path: tuple) -> str:
+    """`bodies[0].velocity`."""
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.removeprefix(".")
+
+
+def printable(text: str) -> str:
+    """One line that any terminal can show: control characters and the like are escaped."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
+def shown(value) -> str:
+    """A value as YAML has it, shortened to what fits into a message."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, dict):
+        return "a mapping"
+    if isinstance(value, list):
+        text = f"[{', '.join(map(shown, value))}]"
+    else:
+        text = str(value).lower() if isinstance(value, bool) else repr(value)
+    return text if len(text) <= 60 else f"{text[:56]} ..."
+
+
+def suggestion(word: object, known: Iterable[str]) -> str:
+    """`; did you mean 'x'?`, or nothing where no known word is close."""
+    words = {candidate.lower(): candidate for candidate in known}
+    close = get_close_matches(str(word).lower(), words, 1)
+    return f"; did you mean '{words[close[0]]}'?" if close else ""

@@ -1,0 +1,83 @@
+"""Bodies of a scene to points, with a report of what sampling made of them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import InputError
+from .points import Points
+
+
+@dataclass(frozen=True)
+class SeedingReport:
+    """Volumes in m^dim; `dataclasses.asdict` gives plain numbers, ready for JSON."""
+
+    name: str
+    particles: int
+    volume: float
+    exact_volume: float | None
+    volume_error: float | None
+    smallest_volume: float
+    largest_volume: float
+    particles_per_cell: float
+    fewest_per_cell: int
+
+    def describe(self) -> str:
+        """One line."""
+        exact = ""
+        if self.exact_volume is not None and self.volume_error is not None:
+            exact = f" of {self.exact_volume:.5g} ({100 * self.volume_error:+.2f} %)"
+        particles = f"{self.particles} particle" + "s" * (self.particles != 1)
+        return (
+            f"{self.name}: {particles}, volume {self.volume:.5g}{exact}, "
+            f"smallest {self.smallest_volume:.2g}, "
+            f"{self.particles_per_cell:.1f} particles per cell (least {self.fewest_per_cell})"
+        )
+
+
+def seed(scene) -> tuple[list[Points], list[SeedingReport]]:
+    """Points and report of each body of a Scene; points outside the domain are an InputError."""
+    points, reports = [], []
+    for index, body in enumerate(scene.bodies):
+        mine = body.particles.points(body.shape, scene.cell_size, scene.dimension)
+        _refuse_outside(mine, f"bodies[{index}].particles", body.name, scene.domain.size)
+        exact = None if body.shape is None else body.shape.volume()
+        points.append(mine)
+        reports.append(seeding_report(body.name, mine, scene.cell_size, exact))
+    return points, reports
+
+
+def _refuse_outside(points: Points, key: str, name: str, size: list[float]) -> None:
+    outside = ((points.x < 0) | (points.x > np.array(size))).any(axis=1)
+    if outside.any():
+        first = [float(f"{value:.6g}") for value in points.x[outside][0]]
+        raise InputError(
+            f"{key}: {outside.sum()} of {len(points.x)} particles of {name} lie outside the domain "
+            f"{size}, the first at {first}"
+        )
+
+
+def seeding_report(
+    name: str, points: Points, cell_size: float, exact_volume: float | None
+) -> SeedingReport:
+    """The volume error is sum(V0) / exact - 1; cells without particles do not count."""
+    volume = float(points.V0.sum())
+    per_cell = _particles_in_cells(np.floor(points.x / cell_size))
+    return SeedingReport(
+        name=name,
+        particles=len(points.V0),
+        volume=volume,
+        exact_volume=exact_volume,
+        volume_error=None if exact_volume is None else volume / exact_volume - 1,
+        smallest_volume=float(points.V0.min()),
+        largest_volume=float(points.V0.max()),
+        particles_per_cell=float(per_cell.mean()),
+        fewest_per_cell=int(per_cell.min()),
+    )
+
+
+def _particles_in_cells(cells: np.ndarray) -> np.ndarray:
+    """How often each distinct row of `cells` [n, dim] occurs."""
+    rows = cells[np.lexsort(cells.T)]
+    starts = np.flatnonzero(np.r_[True, (rows[1:] != rows[:-1]).any(axis=1), True])
+    return np.diff(starts)

@@ -1,0 +1,182 @@
+"""A run: clock, time step, schedules, recorders.  Recorders only read a Simulation."""
+
+import os
+from functools import cached_property
+
+import numpy as np
+
+from . import runtime, stages
+from .errors import InputError, RunError
+from .particles import BodyPoints
+from .scene import Scene
+from .schedules import EverySeconds, even_step
+from .seeding import seed
+from .snapshot import Snapshot, take_snapshot
+from .solver import Solver
+from .time_step import TimeStep
+
+PARTICLES_PER_THREAD = 2048
+"""Below this a second thread costs more in hand-offs than it saves."""
+
+
+class Simulation:
+    """A scene, seeded and ready to run.  Starting one ends any other in the same process, since
+    Taichi has one set of fields.
+
+    `threads` workers on a CPU; by default what the size of the scene is worth.  The result does
+    not depend on it, to the last bit."""
+
+    def __init__(self, scene: Scene, device="cpu", precision=None, threads=None):
+        self.scene, self.device = scene, device
+        self.precision = precision or scene.method.precision or runtime.default_precision(device)
+        _refuse_missing_functions(scene, device, self.precision)
+        points, self.seeding = seed(scene)
+        self.ranges = np.cumsum([0, *(len(p.x) for p in points)])
+        self.threads = threads or self._worthwhile_threads()
+        runtime.start(device, self.precision, self.threads)
+        stages.reset()
+        bodies = [
+            BodyPoints(
+                scene.materials[body.material], p.x,
+                np.tile(body.velocity or [0.0] * scene.dimension, (len(p.x), 1)), p.V0,
+            )
+            for body, p in zip(scene.bodies, points, strict=True)
+        ]  # fmt: skip
+        self.solver = Solver(
+            bodies, scene.domain.cells, scene.cell_size, scene.method.basis_class,
+            scene.method.transfer_class, scene.domain.rules, scene.gravity_vector,
+            mass_cutoff=scene.method.mass_cutoff, threads=self.threads, atomic=device != "cpu",
+        )  # fmt: skip
+        self._constant = {
+            "mass": self.solver.particles.to_numpy("m"),
+            "initial_volume": self.solver.particles.to_numpy("V0"),
+        }
+        given = None if scene.time.step == "auto" else scene.time.step
+        self.time_step = TimeStep(scene, given, scene.time.safety)
+        self.outputs = EverySeconds(scene.output_interval, scene.time.end)
+        self.time, self.step_count, self.output_count = 0.0, 0, 0
+        self.start_speed = max(np.linalg.norm(body.v, axis=1).max() for body in bodies)
+        self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
+        self.solver.start(self.dt)
+
+    def _worthwhile_threads(self):
+        if self.device != "cpu":
+            return 1
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        return int(max(1, min(cores or 1, self.ranges[-1] // PARTICLES_PER_THREAD)))
+
+    def _fitting(self, longest, time):
+        """A step from `time` on that lands on the next output."""
+        number = self.output_count + (time >= self.next_output)
+        if number >= self.outputs.count:
+            return longest
+        return even_step(self.outputs.time(number + 1) - time, longest)
+
+    @property
+    def next_output(self) -> float:
+        """Time of the next output [s]."""
+        return self.outputs.time(self.output_count + 1)
+
+    @property
+    def end(self) -> float:
+        """[s]"""
+        return self.scene.time.end
+
+    @property
+    def is_done(self) -> bool:
+        return self.output_count >= self.outputs.count
+
+    def step(self) -> bool:
+        """One time step.  Returns whether it has landed on an output."""
+        dt = self.dt
+        landing = self.time + 1.5 * dt > self.next_output
+        time = self.next_output if landing else self.time + dt
+        self.dt = self.solver.step(
+            dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
+        )
+        self.time, self.step_count = time, self.step_count + 1
+        self.time_step.note(dt)
+        self.__dict__.pop("snapshot", None)
+        self._stop_if_lost()
+        self.output_count += landing
+        return landing
+
+    def run(self, recorders=()) -> None:
+        """Step to the end; each recorder sees the start, every step and the end."""
+        for recorder in recorders:
+            recorder.record(self, is_output=True)
+        while not self.is_done:
+            landed = self.step()
+            for recorder in recorders:
+                recorder.record(self, is_output=landed)
+
+    def frames(self):
+        """Step to the end, pausing at each output: `for sim in simulation.frames()`."""
+        yield self
+        while not self.is_done:
+            if self.step():
+                yield self
+
+    @cached_property
+    def snapshot(self) -> Snapshot:
+        """The particles now; computed once a step at most."""
+        snapshot = take_snapshot(self.solver, self._constant, self.time, self.step_count)
+        finite = np.isfinite(snapshot.position) & np.isfinite(snapshot.velocity)
+        if not finite.all():
+            first = int(np.flatnonzero(~finite.all(axis=1))[0])
+            raise RunError(
+                f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(first)} "
+                f"has a position or velocity that is no number. {self._advice()}"
+            )
+        return snapshot
+
+    def _stop_if_lost(self):
+        lost = self.solver.particles.lost[None]
+        if lost < self.ranges[-1]:
+            x = self.solver.particles.to_numpy("x")[lost]
+            raise RunError(
+                f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(lost)} "
+                f"has left the domain {self.scene.domain.size}: its position is "
+                f"{[float(f'{value:.6g}') for value in x]}. Make the domain larger or give it "
+                f"walls (domain.walls), or, if it should not have moved so: {self._advice()}"
+            )
+
+    def _advice(self):
+        limit = self.time_step.limits(self.start_speed)[0]
+        return (
+            f"a shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
+            f"{limit.name} limit at the start is {limit.seconds:.3g} s ({limit.cause})."
+        )
+
+    def warnings(self) -> dict[str, int]:
+        """What a reader of the results should know, with counts."""
+        found = {}
+        cut = self.solver.grid.cut[None]
+        if cut:
+            found["nodes as light as a rounding error, taken as empty (one a node and step)"] = cut
+        if self.time_step.given is not None:
+            limit = self.time_step.limits(self.start_speed)[0]
+            if self.time_step.given > limit.seconds:
+                found[f"steps longer than the {limit.name} limit"] = self.step_count
+        return found
+
+    def describe_particle(self, number: int) -> str:
+        """Particle by its place in the scene: number, body, material."""
+        body = int(np.searchsorted(self.ranges, number, side="right")) - 1
+        spec = self.scene.bodies[body]
+        return f"particle {number} (body {spec.name}, material {spec.material})"
+
+    @cached_property
+    def body_of_particle(self) -> np.ndarray:
+        """Index of the body of each particle, shape [n]."""
+        return np.repeat(np.arange(len(self.scene.bodies)), np.diff(self.ranges))
+
+
+def _refuse_missing_functions(scene, device, precision):
+    if device in ("vulkan", "metal") and precision == "f64":
+        for name, material in scene.materials.items():
+            if material.needs_logarithm:
+                raise InputError(
+                    f"materials.{name}: {material.type} needs a logarithm, which {device} does not "
+                    f"have in f64: take --precision f32, or --device cpu"
+                )

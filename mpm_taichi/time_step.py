@@ -1,0 +1,94 @@
+"""How long a step may be, and why.
+
+Limits from numerics.md, chapters 4 and 5, each for the undeformed material and the largest speed:
+
+    acoustic           0.9 b dx / (c + |v|)          b: bulk limit of the basis, c: wave speed
+    isolated particle  l dx sqrt(rho / M_d)          l: limit of transfer and basis for one particle
+    travel             0.5 dx / |v|
+    gravity            sqrt(0.5 dx / |g|)
+"""
+
+from math import hypot, inf, sqrt
+from typing import NamedTuple
+
+GROWTH = 1.02
+"""An automatic step shrinks at once and grows by at most this factor from one step to the next: a
+step that follows the phase of an oscillation would feed energy into it."""
+
+
+class Limit(NamedTuple):
+    """A step of `seconds` is the longest that `name` allows, because of `cause`."""
+
+    name: str
+    seconds: float
+    cause: str
+
+
+def limits(materials, basis, transfer, dx, gravity, speed) -> list[Limit]:
+    """All limits, shortest first.  `materials`: name -> material; speed [m/s] of the fastest."""
+    found = []
+    for name, material in materials.items():
+        c = material.wave_speed()
+        found.append(
+            Limit("acoustic", 0.9 * basis.bulk_limit * dx / (c + speed), f"material {name}")
+        )
+        isolated = transfer.isolated_limit(basis)
+        if isolated is not None:
+            stiffness = material.dilatation_modulus(len(gravity))
+            seconds = isolated * dx * sqrt(material.density / stiffness)
+            found.append(Limit("isolated particle", seconds, f"material {name}"))
+    if speed > 0:
+        found.append(Limit("travel", 0.5 * dx / speed, f"speed {speed:.3g} m/s"))
+    if any(gravity):
+        found.append(Limit("gravity", sqrt(0.5 * dx / hypot(*gravity)), "gravity"))
+    return sorted(found, key=lambda limit: limit.seconds)
+
+
+class TimeStep:
+    """Chooses the length of each step: as given, or `safety` times the shortest limit."""
+
+    def __init__(self, scene, given, safety):
+        self.scene, self.given, self.safety = scene, given, safety
+        self.last = inf
+        self.binding = Limit("given", inf, "time.step")
+        self.shortest, self.longest = inf, 0.0
+
+    def limits(self, speed):
+        method = self.scene.method
+        return limits(
+            self.scene.materials, method.basis_class, method.transfer_class,
+            self.scene.cell_size, self.scene.gravity_vector, speed,
+        )  # fmt: skip
+
+    def choose(self, speed: float) -> float:
+        """The longest step [s] that may be taken at the largest speed [m/s]."""
+        if self.given is not None:
+            return self.given
+        self.binding = self.limits(speed)[0]
+        self.last = min(self.safety * self.binding.seconds, GROWTH * self.last)
+        return self.last
+
+    def describe(self, speed: float, dt: float) -> list[str]:
+        """What the first step is and why, in words."""
+        shortest = self.limits(speed)[0]
+        binding = f"{shortest.name} limit {shortest.seconds:.3g} s ({shortest.cause})"
+        if self.given is None:
+            lines = [f"time step {dt:.4g} s: auto, {self.safety:g} of the {binding}"]
+        else:
+            lines = [f"time step {dt:.4g} s: given; {binding}"]
+        if self.given is not None and self.given > shortest.seconds:
+            lines.append(
+                f"warning: time.step is {self.given / shortest.seconds:.3g} times the {binding}: "
+                "the run may blow up; `step: auto` chooses a stable one"
+            )
+        method = self.scene.method
+        if self.given is None and method.transfer_class.isolated_limit(method.basis_class) is None:
+            lines.append(
+                f"the {method.basis} basis has no limit above zero for a lone particle: auto takes "
+                "that of a filled body"
+            )
+        return lines
+
+    def note(self, dt: float) -> None:
+        """Remember a step that was taken."""
+        self.shortest, self.longest = min(self.shortest, dt), max(self.longest, dt)

@@ -1,0 +1,29 @@
+"""APIC in the form of moving least squares (MLS-MPM): Hu et al. (2018)."""
+
+from math import sqrt
+
+import taichi as ti
+
+from .apic import APIC
+
+
+class MLS(APIC):
+    """The stress joins the affine momentum, A = m C - dt V0 tau D^-1, and C serves as L: one walk
+    over the stencil carries everything.  Needs a basis whose moment D is constant."""
+
+    gradient = False
+
+    @staticmethod
+    def isolated_limit(basis):
+        """2 / sqrt(D^-1)."""
+        return 2 / sqrt(basis.inverse_moment)
+
+    @staticmethod
+    @ti.func
+    def affine_momentum(m, C, T, D_inverse):
+        return m * C + D_inverse * T
+
+    @staticmethod
+    @ti.func
+    def gradients(B, S, D_inverse):
+        return D_inverse * B, D_inverse * B

@@ -1,0 +1,100 @@
+"""An unsymmetric state in the fast form and in the twin, and the fields of both, side by side."""
+
+import numpy as np
+
+from mpm_taichi import bases, boundaries, transfers
+from mpm_taichi.boundaries import Wall
+from mpm_taichi.materials import LinearElastic, NeoHookean
+from mpm_taichi.particles import BodyPoints
+from mpm_taichi.reference import bases as twin_bases
+from mpm_taichi.reference import boundaries as twin_boundaries
+from mpm_taichi.reference import transfers as twin_transfers
+from mpm_taichi.reference.solver import Solver as TwinSolver
+from mpm_taichi.solver import Solver
+
+PAIRS = [
+    (basis.__name__, transfer.__name__)
+    for basis in bases.BASES
+    for transfer in transfers.TRANSFERS
+    if basis.inverse_moment is not None or not transfer.affine
+]
+CELLS = {2: (7, 9), 3: (6, 7, 8)}
+DX = 0.1
+
+
+def bodies(rng, dim):
+    """Two clouds of unlike materials that overlap and fly at each other, beside walls; the second
+    material has two bodies, one on each side of the first in the order of the scene."""
+    center = 0.5 * DX * np.array(CELLS[dim])
+    soft = NeoHookean(type="neo_hookean", density=900, youngs_modulus=2e5, poissons_ratio=0.3)
+    hard = LinearElastic(
+        type="linear_elastic", density=1100, youngs_modulus=1e5, poissons_ratio=0.2
+    )
+    clouds = [(hard, -1.2, 1.0), (soft, 0.0, -1.0), (hard, 1.5, 2.0)]
+    for material, shift, sign in clouds:
+        count = int(rng.integers(8, 14))
+        x = center + DX * (shift + 2.4 * (rng.random((count, dim)) - 0.5))
+        v = rng.normal(size=(count, dim)) + sign * np.arange(2, dim + 2)
+        yield BodyPoints(material, x, v, DX**dim / 8 * (0.5 + rng.random(count)))
+
+
+def walls(dim, rules):
+    """Unlike rules on the sides, the last one open."""
+    sides = [(axis, upper) for axis in range(dim) for upper in (False, True)][:-1]
+    names = ["Sticky", "Slip", "Separate", "Slip", "Separate"]
+    return tuple(
+        Wall(*side, getattr(rules, name)) for side, name in zip(sides, names, strict=False)
+    )
+
+
+def build(rng, dim, basis, transfer):
+    """The same bodies in the fast solver and in the twin."""
+    common = list(bodies(rng, dim))
+    gravity = rng.normal(size=dim)
+
+    def make(solver, b, t, rules):
+        return solver(
+            common, CELLS[dim], DX, getattr(b, basis), getattr(t, transfer), walls(dim, rules),
+            gravity,
+        )  # fmt: skip
+
+    return (
+        make(Solver, bases, transfers, boundaries),
+        make(TwinSolver, twin_bases, twin_transfers, twin_boundaries),
+    )
+
+
+def nodes(grid, lane):
+    """Lanes of the first and, with an increment, of the second record, as arrays over the nodes."""
+    records = grid.node.to_numpy()
+    shape = tuple(n + 1 + 2 * grid.ghost for n in grid.cells)
+    inside = tuple(slice(n) for n in shape)
+
+    def box(first):
+        return records[first : first + grid.nodes].reshape(*grid.extent, 4)[inside][..., lane]
+
+    return box(0), box(grid.apart) if grid.increment else 0 * box(0)
+
+
+def particle_fields(fast, twin):
+    """Pairs (fast, twin) of everything that particles carry after a step."""
+    particles, layout, dim = fast.particles, fast.particles.layout, fast.grid.dim
+    rows = particles.to_numpy("rows")
+    columns = lambda at: rows[:, list(at), :dim].swapaxes(1, 2)  # noqa: E731
+    pairs = {
+        "x": (particles.to_numpy("x"), twin.particles.x),
+        "H": (particles.to_numpy("H"), twin.particles.H),
+        "mass": (rows[:, 0, dim], twin.particles.m),
+        "momentum": (rows[:, 0, :dim], twin.particles.m[:, None] * twin.particles.v),
+    }
+    if fast.transfer.affine:
+        pairs["A"] = (columns(layout.affine) / fast.grid.dx, twin.particles.A)
+    if fast.transfer.gradient:
+        pairs["T"] = (columns(layout.gradient) * fast.grid.dx, twin.particles.T)
+    return pairs
+
+
+def largest_difference(a, b):
+    """Relative to the largest value of the field."""
+    scale = np.abs(b).max()
+    return np.abs(a - b).max() / (scale if scale > 0 else 1.0)

@@ -1,0 +1,66 @@
+"""Solvers with particles set by hand, and what they conserve."""
+
+import numpy as np
+
+from mpm_taichi import bases, diagnostics, transfers
+from mpm_taichi.materials import NeoHookean
+from mpm_taichi.particles import BodyPoints
+from mpm_taichi.shapes import Ball
+from mpm_taichi.snapshot import take_snapshot
+from mpm_taichi.solver import Solver
+
+PAIRS = [
+    (basis, transfer)
+    for basis in bases.BASES
+    for transfer in transfers.TRANSFERS
+    if basis.inverse_moment is not None or not transfer.affine
+]
+IDS = [f"{basis.name}-{transfer.__name__}" for basis, transfer in PAIRS]
+JELLY = NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e4, poissons_ratio=0.3)
+
+
+def ball_points(dim, cells, radius, offset):
+    """Lattice of 2 per cell and axis inside a ball in the middle of the unit box, then moved."""
+    h = 0.5 / cells
+    lattice = (np.indices((2 * cells,) * dim).reshape(dim, -1).T + 0.5) * h
+    ball = Ball(type="ball", center=[0.5] * dim, radius=radius)
+    x = lattice[ball.signed_distance(lattice) < 0] + offset
+    return x, np.full(len(x), h**dim)
+
+
+def solver(x, v, V0, cells, basis, transfer, gravity=None, threads=1, material=JELLY):
+    dim = x.shape[1]
+    return Solver(
+        [BodyPoints(material, x, v, V0)], (cells,) * dim, 1 / cells, basis, transfer, (),
+        gravity or [0.0] * dim, threads=threads,
+    )  # fmt: skip
+
+
+def restart(solver, x, v, V0):
+    """The same solver with as many particles at other places: nothing is compiled again."""
+    particles = solver.particles
+    m = JELLY.density * V0
+    particles.x.from_numpy(x)
+    particles.V0.from_numpy(V0)
+    particles.m.from_numpy(m)
+    particles.id.from_numpy(np.arange(len(x)))
+    particles.H.fill(0.0)
+    particles.rows.from_numpy(particles.gathered(m, v))
+    solver.drift = np.inf
+
+
+def advance(solver, dt, steps):
+    solver.start(dt)
+    for _ in range(steps):
+        solver.step(dt, lambda speed: dt)
+
+
+def snapshot(solver):
+    particles = solver.particles
+    constant = {"mass": particles.to_numpy("m"), "initial_volume": particles.to_numpy("V0")}
+    return take_snapshot(solver, constant, 0.0, 0)
+
+
+def momenta(solver):
+    now = snapshot(solver)
+    return diagnostics.momentum(now), diagnostics.angular_momentum(now)

@@ -1,0 +1,92 @@
+"""The result does not depend on the number of threads: not in the last bit."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+import hashlib, json, os, sys
+from pathlib import Path
+import numpy as np
+from mpm_taichi import runtime
+from mpm_taichi.bases import Linear, QuadraticBSpline
+from mpm_taichi.transfers import FLIP, MLS
+from tests.verification.motions import ball_points, solver
+
+threads, dim, precision, method = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3], sys.argv[4]
+basis, transfer = {"mls": (QuadraticBSpline, MLS), "flip": (Linear, FLIP)}[method]
+
+def cpu_seconds():
+    tick = os.sysconf("SC_CLK_TCK")
+    used = {}
+    for task in Path("/proc/self/task").iterdir():
+        fields = (task / "stat").read_text().rsplit(")", 1)[1].split()
+        used[task.name] = (int(fields[11]) + int(fields[12])) / tick
+    return used
+
+runtime.start("cpu", precision, threads)
+cells, width = {2: (256, 0.3), 3: (64, 0.2)}[dim]
+x, V0 = ball_points(dim, cells, 0.85, 0.003)  # a bar: the ball is larger than the box
+bar = (np.abs(x - 0.45) < [0.36, width, width][:dim]).all(axis=1)
+x, V0 = x[bar], V0[bar]
+v = 0.4 + 0.1 * np.sin(7 * x[:, ::-1]) * [1, 2, 3][:dim]
+mpm = solver(x, v, V0, cells, basis, transfer, threads=threads)
+dt = 0.05 / cells
+mpm.start(dt)
+mpm.step(dt, lambda speed: dt)
+before = cpu_seconds()
+for _ in range(199):
+    mpm.step(dt, lambda speed: dt)
+after = cpu_seconds()
+digest = hashlib.sha256()
+for name in ("x", "H", "rows", "id"):
+    digest.update(getattr(mpm.particles, name).to_numpy().tobytes())
+occupied = np.diff(mpm.grid.start.to_numpy()[0])
+print(json.dumps({
+    "digest": digest.hexdigest(), "sorts": mpm.sorts, "particles": len(x),
+    "slabs": int((occupied > 0).sum()),
+    "cpu": sorted(
+        (after[t] - before.get(t, 0.0) for t in after if t != str(os.getpid())), reverse=True
+    ),
+    "moved": bool(np.isfinite(mpm.particles.x.to_numpy()).all()),
+}))
+"""
+
+
+def run(tmp_path, threads, *arguments):
+    program = tmp_path / "program.py"
+    program.write_text(PROGRAM)
+    command = [sys.executable, str(program), str(threads), *arguments]
+    result = subprocess.run(command, check=True, capture_output=True, text=True,
+                            env=_environment())  # fmt: skip
+    return json.loads(result.stdout.splitlines()[-1])
+
+
+def _environment():
+    return os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("dim", "precision", "method"),
+    [("2", "f64", "mls"), ("2", "f32", "flip"), ("3", "f32", "mls"), ("3", "f64", "flip")],
+)
+def test_same_bytes_on_1_2_3_and_4_threads(tmp_path, dim, precision, method):
+    """200 steps with sorts of at least 10,000 particles in at least 8 slabs: identical bytes, with
+    fast-math on.  As many workers as there are cores have used CPU time: with more threads than
+    cores a worker that is awake takes the share of one that is not."""
+    runs = {threads: run(tmp_path, threads, dim, precision, method) for threads in (1, 2, 3, 4)}
+    print(runs)
+    first = runs[1]
+    assert first["particles"] >= 10_000
+    assert first["slabs"] >= 8
+    assert first["sorts"] >= 2
+    assert first["moved"]
+    assert {r["digest"] for r in runs.values()} == {first["digest"]}
+    for threads in (2, 4):
+        busy = min(threads, os.cpu_count() or 1)
+        assert min(runs[threads]["cpu"][:busy]) > 0, f"idle thread of {threads}: {runs[threads]}"
