@@ -131,7 +131,9 @@ def _dispatch(options) -> int:
 
     from . import run
 
-    console = Console(stderr=True, quiet=getattr(options, "quiet", False))
+    console = Console(
+        stderr=True, quiet=getattr(options, "quiet", False), markup=False, highlight=False
+    )
     if options.command == "check":
         return run.check(scene, options, console)
     return run.run(scene, options.scene.stem, options, console)

@@ -3,7 +3,7 @@
 import dataclasses
 import platform
 import time
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
 
@@ -29,7 +29,7 @@ class Report:
             "versions": {
                 "mpm_taichi": __version__,
                 "python": platform.python_version(),
-                **{package: version(package) for package in PACKAGES},
+                **{package: installed(package) for package in PACKAGES},
             },
             "machine": platform.platform(),
             "device": simulation.device,
@@ -56,6 +56,14 @@ class Report:
         if history is not None and history.first is not None:
             result["conservation"] = conservation(history.first, history.last)
         return result
+
+
+def installed(package: str) -> str | None:
+    """Its version; None where a package that this run did not need is missing."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return None
 
 
 def conservation(first: dict, last: dict) -> dict:

@@ -35,16 +35,21 @@ def run(scene, name, options, console: Console) -> int:
     simulation = Simulation(scene, options.device, options.precision, options.threads)
     announce(simulation, console)
     folder = run_folder.create(name, options.output, options.overwrite)
-    run_folder.write_text(folder / "scene.yaml", dump_scene(scene))
-    history = History(folder / "history.csv", simulation, scene.output.history.every_steps)
-    recorders: list = [history]
-    if scene.output.images != "none":
-        recorders.append(Images(folder / "frames", simulation, scene.output.images))
-    report = Report(simulation, sys.argv[1:])
+    report, history = Report(simulation, sys.argv[1:]), None
     status, error, code = "done", None, 0
     try:
-        with Interruption() as interruption, Progressing(console, began) as progress:
-            simulation.run([*recorders, interruption, progress])
+        run_folder.write_text(folder / "scene.yaml", dump_scene(scene))
+        run_folder.write_json(folder / "run.json", report.content("running"))
+        with contextlib.ExitStack() as stack:
+            history = History(folder / "history.csv", simulation, scene.output.history.every_steps)
+            stack.callback(history.close)
+            recorders: list = [history]
+            if scene.output.images != "none":
+                recorders.append(Images(folder / "frames", simulation, scene.output.images))
+                stack.callback(recorders[-1].close)
+            recorders.append(stack.enter_context(Interruption()))
+            recorders.append(stack.enter_context(Progressing(console, began)))
+            simulation.run(recorders)
     except RunError as failure:
         status, error, code = "failed", str(failure), 1
     except Interrupted as signal_name:
@@ -52,15 +57,15 @@ def run(scene, name, options, console: Console) -> int:
     except OSError as failure:
         status, error, code = "failed", f"writing to {folder} failed: {failure}", 1
     content = report.content(status, history, error)
-    with contextlib.suppress(OSError):
-        for recorder in recorders:
-            recorder.close()
+    try:
         run_folder.write_json(folder / "run.json", content)
+    except OSError as failure:
+        status, error, code = "failed", error or f"writing to {folder} failed: {failure}", code or 1
     for warning, count in content["warnings"].items():
-        console.print(f"warning: {warning}: {count}", highlight=False)
+        console.print(f"warning: {warning}: {count}", soft_wrap=True)
     if error:
-        console.print(f"{status}: {error}", style="red", highlight=False, soft_wrap=True)
-    console.print(summary(simulation, folder, status), highlight=False, soft_wrap=True)
+        print(f"{status}: {error}", file=sys.stderr)  # also where the console is quiet
+    console.print(summary(simulation, folder, status), soft_wrap=True)
     if options.json:
         print(json.dumps(content, indent=2))
     return code
@@ -74,7 +79,7 @@ def check(scene, options, console: Console) -> int:
     console.print(
         f"about {steps:.0f} steps to t = {scene.time.end:g} s, {simulation.outputs.count} outputs "
         f"after the start",
-        highlight=False, soft_wrap=True,
+        soft_wrap=True,
     )  # fmt: skip
     return 0
 
@@ -83,15 +88,15 @@ def announce(simulation, console):
     """What will run: particles, device, time step."""
     scene = simulation.scene
     for seeding in simulation.seeding:
-        console.print(seeding.describe(), highlight=False, soft_wrap=True)
+        console.print(seeding.describe(), soft_wrap=True)
     console.print(
         f"{simulation.device} {simulation.precision}, threads {simulation.threads}; "
         f"{' x '.join(map(str, scene.domain.cells))} cells of {scene.cell_size:g} m; "
         f"{scene.method.basis} basis, {scene.method.transfer.type}",
-        highlight=False, soft_wrap=True,
+        soft_wrap=True,
     )  # fmt: skip
     for line in simulation.time_step.describe(simulation.start_speed, simulation.dt):
-        console.print(line, highlight=False, soft_wrap=True)
+        console.print(line, soft_wrap=True)
 
 
 def summary(simulation, folder: Path, status: str) -> str:
@@ -157,7 +162,7 @@ class Progressing:
         if simulation.step_count == 1:  # the first step compiles: its pace says nothing
             self.start = now
             compiled = f"first step after {now - self.began:.1f} s"
-            self.console.print(f"kernels are ready, {compiled}", highlight=False)
+            self.console.print(f"kernels are ready, {compiled}")
             return
         interval = 0.1 if self.console.is_terminal else PLAIN_INTERVAL
         if now - self.shown < interval:
@@ -171,5 +176,4 @@ class Progressing:
             self.console.print(
                 f"t = {simulation.time:.4g} of {simulation.end:.4g} s, step "
                 f"{simulation.step_count}, {text}, {left:.0f} s to finish",
-                highlight=False,
             )

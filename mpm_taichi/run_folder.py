@@ -1,13 +1,13 @@
 """The folder of a run: it describes itself, and no run overwrites another unasked."""
 
+import contextlib
 import json
-import shutil
 from itertools import count
 from pathlib import Path
 
 from .errors import InputError
 
-CONTENTS = ("scene.yaml", "run.json", "history.csv", "frames")
+CONTENTS = ("scene.yaml", "run.json", "history.csv", "frames/frame_*.png")
 """What a run writes, and all that `overwrite` removes."""
 
 
@@ -37,9 +37,11 @@ def create(scene_name: str, wanted: Path | None, overwrite: bool) -> Path:
     try:
         if wanted is None:
             return _first_free(Path("runs"), scene_name)
-        for name in CONTENTS:
-            path = wanted / name
-            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+        for pattern in CONTENTS:
+            for path in wanted.glob(pattern):
+                path.unlink()
+        with contextlib.suppress(OSError):  # not there, or with a file of the user's
+            (wanted / "frames").rmdir()
         wanted.mkdir(parents=True, exist_ok=True)
         return wanted
     except OSError as error:

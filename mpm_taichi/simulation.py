@@ -18,6 +18,8 @@ from .time_step import TimeStep
 PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
 
+MOST_THREADS = 1024
+
 
 class Simulation:
     """A scene, seeded and ready to run.  Starting one ends any other in the same process, since
@@ -33,6 +35,8 @@ class Simulation:
         points, self.seeding = seed(scene)
         self.ranges = np.cumsum([0, *(len(p.x) for p in points)])
         self.threads = threads or self._worthwhile_threads()
+        if self.threads > MOST_THREADS:
+            raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
         runtime.start(device, self.precision, self.threads)
         stages.reset()
         bodies = [
@@ -122,11 +126,12 @@ class Simulation:
         """The particles now; computed once a step at most."""
         snapshot = take_snapshot(self.solver, self._constant, self.time, self.step_count)
         finite = np.isfinite(snapshot.position) & np.isfinite(snapshot.velocity)
+        finite = finite.all(axis=1) & np.isfinite(snapshot.energy_density)
         if not finite.all():
-            first = int(np.flatnonzero(~finite.all(axis=1))[0])
+            first = int(np.flatnonzero(~finite)[0])
             raise RunError(
                 f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(first)} "
-                f"has a position or velocity that is no number. {self._advice()}"
+                f"has a position, velocity or energy that is no number. {self._advice()}"
             )
         return snapshot
 

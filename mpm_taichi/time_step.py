@@ -73,7 +73,7 @@ class TimeStep:
         shortest = self.limits(speed)[0]
         binding = f"{shortest.name} limit {shortest.seconds:.3g} s ({shortest.cause})"
         if self.given is None:
-            lines = [f"time step {dt:.4g} s: auto, {self.safety:g} of the {binding}"]
+            lines = [f"time step {dt:.4g} s: auto, at most {self.safety:g} of the {binding}"]
         else:
             lines = [f"time step {dt:.4g} s: given; {binding}"]
         if self.given is not None and self.given > shortest.seconds:

@@ -15,7 +15,7 @@ class History:
         self.first: dict[str, float] | None = None
         self.last: dict[str, float] | None = None
         self._file = path.open("w", newline="")
-        self._writer = csv.writer(self._file)
+        self._writer = csv.writer(self._file, lineterminator="\n")
 
     def record(self, simulation, is_output):
         if not (is_output or simulation.step_count % self.every_steps == 0):

@@ -4,16 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..renderers.picture import Frame, draw
-from ..renderers.png import write_png
-
 
 class Images:
     """Pictures by the offscreen renderer.  Where the scene gives no range, the color scale is the
     widest that the run has shown so far."""
 
     def __init__(self, folder: Path, simulation, style):
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         self.folder, self.style = folder, style
         self.count = 0
         self.low, self.high = (0.0, 0.0) if style.range is None else style.range
@@ -22,6 +19,9 @@ class Images:
     def record(self, simulation, is_output):
         if not is_output:
             return
+        from ..renderers.picture import Frame, draw  # Pillow, which a run without pictures spares
+        from ..renderers.png import write_png
+
         scene, snapshot = simulation.scene, simulation.snapshot
         value = self._value(snapshot)
         if value is not None and self.style.range is None:

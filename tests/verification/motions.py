@@ -28,11 +28,11 @@ def ball_points(dim, cells, radius, offset):
     return x, np.full(len(x), h**dim)
 
 
-def solver(x, v, V0, cells, basis, transfer, gravity=None, threads=1, material=JELLY):
+def solver(x, v, V0, cells, basis, transfer, gravity=None, **options):
     dim = x.shape[1]
     return Solver(
-        [BodyPoints(material, x, v, V0)], (cells,) * dim, 1 / cells, basis, transfer, (),
-        gravity or [0.0] * dim, threads=threads,
+        [BodyPoints(JELLY, x, v, V0)], (cells,) * dim, 1 / cells, basis, transfer, (),
+        gravity or [0.0] * dim, **options,
     )  # fmt: skip
 
 
