@@ -33,6 +33,8 @@ def start(device: str = "cpu", precision: str = "f64", threads: int = 1, **optio
         raise InputError(
             f"the environment has TI_ARCH={forced}, which overrides --device {device}: unset it"
         )
+    if device == "metal" and precision == "f64":
+        raise InputError("--device metal has no 64-bit floats: take --precision f32")
     if device == "vulkan" or not os.environ.get("DISPLAY"):
         os.environ.setdefault("EGL_PLATFORM", "surfaceless")
     try:

@@ -38,12 +38,13 @@ def update_particle(
     T = (-dt_next * V0) * tau
     put_momentum(particles.rows, p, m, v)
     if ti.static(transfer.affine):
-        A = transfer.affine_momentum(m, C, T, g.inverse_moment)
-        put_columns(particles.rows, p, particles.layout.affine, A * g.dx)
+        # A dx: linear in m and D^-1, and two numbers are cheaper to scale than a matrix
+        A_dx = transfer.affine_momentum(m * g.dx, C, T, g.inverse_moment * g.dx)
+        put_columns(particles.rows, p, particles.layout.affine, A_dx)
     put_columns(particles.rows, p, particles.layout.gradient, T * g.inv_dx)
     x = particles.x[p] + dt * v_pic
     particles.x[p] = x
-    if not (x.min() >= 0.0 and (g.size - x).min() >= 0.0):
+    if not ((x >= 0.0).all() and (x <= g.size).all()):
         ti.atomic_min(particles.lost[None], particles.id[p])
 
 

@@ -6,7 +6,6 @@ A material is a frozen model (what a scene gives, with units) and device functio
 - `state(dim)`            history variables, name -> value at the start (empty: the law has none)
 - `wave_speed()`          of pressure waves in the undeformed material [m/s]
 - `dilatation_modulus(dim)`  M_d = dim lam + 2 mu [Pa], of a lone particle's time-step limit
-- `needs_logarithm`       whether the device functions take logarithms (not in f64 on every device)
 - `update(c, H, L, dt, s)`  -> H, s, tau [Pa], with H = F - I already advanced by dt, L the velocity
   gradient [1/s] and s the state.  With L = 0 and dt = 0 it only evaluates the stress
 - `energy_density(c, H, s)`  elastic energy per reference volume [J/m^3]

@@ -1,7 +1,6 @@
 """What all isotropic elastic materials have: density, Young's modulus, Poisson's ratio."""
 
 from math import sqrt
-from typing import ClassVar
 
 from pydantic import Field
 
@@ -14,8 +13,6 @@ class Elastic(Model):
     density: Positive = Field(description="mass per volume at the start [kg/m^3]")
     youngs_modulus: Positive = Field(description="Young's modulus E [Pa]")
     poissons_ratio: float = Field(gt=-1, lt=0.5, description="Poisson's ratio nu [-]")
-
-    needs_logarithm: ClassVar[bool] = False
 
     def constants(self, cell_size: float) -> dict[str, float]:
         """Lame parameters mu and lam [Pa]."""

@@ -1,6 +1,6 @@
 """Compressible neo-Hookean solid: Bonet and Wood (2008), Nonlinear Continuum Mechanics, 6.4.3."""
 
-from typing import ClassVar, Literal
+from typing import Literal
 
 import taichi as ti
 
@@ -14,8 +14,6 @@ class NeoHookean(Elastic):
     Stiffens in compression, rotates with the body; J must stay above 0."""
 
     type: Literal["neo_hookean"]
-
-    needs_logarithm: ClassVar[bool] = True
 
     @staticmethod
     @ti.func

@@ -12,12 +12,6 @@ from mpm_taichi.reference import transfers as twin_transfers
 from mpm_taichi.reference.solver import Solver as TwinSolver
 from mpm_taichi.solver import Solver
 
-PAIRS = [
-    (basis.__name__, transfer.__name__)
-    for basis in bases.BASES
-    for transfer in transfers.TRANSFERS
-    if basis.inverse_moment is not None or not transfer.affine
-]
 CELLS = {2: (7, 9), 3: (6, 7, 8)}
 DX = 0.1
 

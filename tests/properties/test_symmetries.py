@@ -9,7 +9,8 @@ import pytest
 from mpm_taichi.bases import QuadraticBSpline
 from mpm_taichi.transfers import MLS
 
-from ..verification.motions import IDS, JELLY, PAIRS, advance, restart, solver
+from ..cases import CASES
+from ..verification.motions import JELLY, advance, restart, solver
 
 CELLS = {2: 16, 3: 10}
 STEPS = 20
@@ -36,8 +37,7 @@ def close(a, b):
     return np.abs(a - b).max() < 1e-11 * max(np.abs(b).max(), 1.0)
 
 
-@pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize(("basis", "transfer"), PAIRS, ids=IDS)
+@pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
 def test_mirror_rotation_and_order(exact, rng, dim, basis, transfer):
     """Mirror image in x, turn by 90 degrees (x, y) -> (-y, x) about the middle, cyclic exchange of
     the axes, and the particles in another order."""

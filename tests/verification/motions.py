@@ -2,20 +2,13 @@
 
 import numpy as np
 
-from mpm_taichi import bases, diagnostics, transfers
+from mpm_taichi import diagnostics
 from mpm_taichi.materials import NeoHookean
 from mpm_taichi.particles import BodyPoints
 from mpm_taichi.shapes import Ball
 from mpm_taichi.snapshot import take_snapshot
 from mpm_taichi.solver import Solver
 
-PAIRS = [
-    (basis, transfer)
-    for basis in bases.BASES
-    for transfer in transfers.TRANSFERS
-    if basis.inverse_moment is not None or not transfer.affine
-]
-IDS = [f"{basis.name}-{transfer.__name__}" for basis, transfer in PAIRS]
 JELLY = NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e4, poissons_ratio=0.3)
 
 

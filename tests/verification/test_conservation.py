@@ -11,7 +11,8 @@ from mpm_taichi.kernels.clear import clear
 from mpm_taichi.kernels.p2g import p2g
 from mpm_taichi.transfers import APIC, FLIP, MLS, PIC
 
-from .motions import IDS, JELLY, PAIRS, advance, ball_points, momenta, snapshot, solver
+from ..cases import CASES
+from .motions import JELLY, advance, ball_points, momenta, snapshot, solver
 
 SIZES = {2: (20, 0.2), 3: (12, 0.22)}
 
@@ -27,8 +28,7 @@ def start(rng, dim, basis, transfer, omega=0.0, **options):
     return solver(x, v, V0, cells, basis, transfer, **options), x, v
 
 
-@pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize(("basis", "transfer"), PAIRS, ids=IDS)
+@pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
 def test_mass_and_momentum(fast, rng, dim, basis, transfer):
     """A moving, compressed ball springs back: 100 steps keep the momentum to 1e-13 of sum m |v| per
     step (k u), and the nodes hold the mass of the particles to 1e-13."""
@@ -73,8 +73,7 @@ def test_pic_loses_angular_momentum(fast, rng):
     assert after[0] < 0.9 * before[0]
 
 
-@pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize(("basis", "transfer"), PAIRS, ids=IDS)
+@pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
 def test_free_fall_is_exact(fast, rng, dim, basis, transfer):
     """Under g alone, symplectic Euler gives v = v0 + n dt g and x = x0 + n dt v0 + n (n + 1)/2
     dt^2 g for every particle: sums of weights are 1, so rounding errors of 100 steps remain.  F

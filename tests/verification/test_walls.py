@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mpm_taichi.bases import QuadraticBSpline
-from mpm_taichi.boundaries import RULES, Separate, Slip, Sticky, Wall
+from mpm_taichi.boundaries import RULES, Slip, Sticky, Wall
 from mpm_taichi.kernels.clear import clear
 from mpm_taichi.kernels.grid_update import grid_update
 from mpm_taichi.kernels.p2g import p2g
@@ -83,8 +83,3 @@ def test_ball_bounces_off_the_floor(fast, rng, rule):
         assert after < 0.9 * before
     else:
         assert after == pytest.approx(before, rel=1e-11)
-
-
-def test_catalogue_is_tested():
-    """Every rule is in the rows above."""
-    assert set(RULES) == {Sticky, Slip, Separate}
