@@ -4,9 +4,10 @@
                                     [--rounds N] [--json FILE]
 
 One thread, neo-Hookean, a cube in shear, 2^dim particles per cell (3D: a million particles on 128^3
-cells, 2D: 250,000 on 512^2).  Each form runs in processes of its own, in turns; CPU time of each
-stage, the least of all steps and rounds.  The time of the first calls (compilation, no cache) is
-reported apart."""
+cells, 2D: 250,000 on 512^2), dt = 0.1 dx / c.  Each form runs in processes of its own, in turns;
+CPU time of each stage, the least of all steps and rounds.  The total has the sort divided by the
+steps from one sort to the next at the speed of this run.  What the first calls take longer
+(compilation, no cache) is reported apart."""
 
 import argparse
 import json
@@ -15,6 +16,7 @@ import platform
 import subprocess
 import sys
 import time
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +32,7 @@ def block(dim, count, form):
     jittered lattice, since random points leave nodes of almost no mass."""
     rng = np.random.default_rng(0)
     side = round((count / 2**dim) ** (1 / dim))
-    cells = 2 ** int(np.ceil(np.log2(side + 8)))
+    cells = 2 ** int(np.ceil(np.log2(2 * side + 8)))
     corner = (cells - side) // 2
     if form.startswith("linear"):
         lattice = np.indices((2 * side,) * dim).reshape(dim, -1).T
@@ -47,7 +49,8 @@ def block(dim, count, form):
 
 
 def stages(dim, count, form):
-    """The stages of one step, name -> function without arguments; and the number of particles."""
+    """The stages of one step, name -> function without arguments; the number of particles; the
+    seconds of the first stress update and sort; and the steps from one sort to the next."""
     from mpm_taichi.materials import NeoHookean
 
     x, v, V0, cells = block(dim, count, form)
@@ -58,9 +61,10 @@ def stages(dim, count, form):
 
         step = Textbook(x, v, V0, cells, material, dt)
         names = ("clear", "p2g", "grid_update", "g2p")
-        return {name: getattr(step, name) for name in names}, len(x)
+        return {name: getattr(step, name) for name in names}, len(x), 0.0, lambda: 1.0
 
     from mpm_taichi import bases, transfers
+    from mpm_taichi.boundaries import Separate, Wall
     from mpm_taichi.kernels.clear import clear
     from mpm_taichi.kernels.g2p import g2p
     from mpm_taichi.kernels.grid_update import grid_update
@@ -71,30 +75,34 @@ def stages(dim, count, form):
     from mpm_taichi.solver import Solver
 
     word, transfer = form.split()
+    walls = tuple(Wall(axis, upper, Separate) for axis in range(dim) for upper in (False, True))
     basis = next(basis for basis in bases.BASES if basis.name == word)
     solver = Solver(
         [BodyPoints(material, x, v, V0)], (cells,) * dim, 1 / cells, basis,
-        getattr(transfers, transfer.upper()), (), [0.0] * dim,
+        getattr(transfers, transfer.upper()), walls, [0.0] * dim,
     )  # fmt: skip
     P, G, t = solver.particles, solver.grid, solver.transfer
+    before = time.process_time()
     solver.start(dt)
     sort(P, G, basis)
-    return {
+    began = time.process_time() - before
+    functions = {
         "clear": lambda: clear(G),
         "p2g": lambda: p2g(P, G, basis, t),
-        "grid_update": lambda: grid_update(G, (), solver.gravity, dt),
+        "grid_update": lambda: grid_update(G, walls, solver.gravity, dt),
         "g2p": lambda: g2p(P, G, basis, t),
         "update_stress": lambda: update_stress(P, P.groups[0], G, t, dt, dt),
         "sort": lambda: sort(P, G, basis),
-    }, len(x)
+    }
+    return functions, len(x), began, lambda: 1 / (dt * cells * G.speed_squared[None] ** 0.5)
 
 
 def measure(dim, precision, count, form):
-    """Least CPU time of each stage [ns per particle] and the time of the first calls [s]."""
+    """Least CPU time of each stage [ns per particle], what the first calls take longer [s]."""
     from mpm_taichi import runtime
 
     runtime.start("cpu", precision, 1, offline_cache=False)
-    functions, n = stages(dim, count, form)
+    functions, n, began, steps_per_sort = stages(dim, count, form)
     times = {name: [] for name in functions}
     for _ in range(STEPS):
         for name, function in functions.items():
@@ -102,8 +110,11 @@ def measure(dim, precision, count, form):
             function()
             times[name].append(time.process_time() - before)
     least = {name: min(values[1:]) / n * 1e9 for name, values in times.items()}
-    first = sum(values[0] for values in times.values())
-    return {"stages": least, "first_calls": first, "particles": n}
+    again = sum(least.get(name, 0.0) for name in ("update_stress", "sort")) * n / 1e9
+    first = sum(values[0] - min(values[1:]) for values in times.values()) + max(0.0, began - again)
+    return {
+        "stages": least, "first_calls": first, "particles": n, "steps_per_sort": steps_per_sort(),
+    }  # fmt: skip
 
 
 def child(*arguments):
@@ -114,12 +125,15 @@ def child(*arguments):
 
 
 def least(rounds):
-    """The least of each stage over rounds; the total leaves out the sort, which is not due each
-    step."""
+    """The least of each stage over rounds; the total with the share of the sort in a step."""
     best = {name: min(r["stages"][name] for r in rounds) for name in rounds[0]["stages"]}
-    total = sum(ns for name, ns in best.items() if name != "sort")
+    steps = rounds[0]["steps_per_sort"]
+    total = sum(ns / steps if name == "sort" else ns for name, ns in best.items())
     first = min(r["first_calls"] for r in rounds)
-    return {"stages": best, "total": total, "first_calls": first}
+    return {
+        "stages": best, "total": total, "first_calls": first, "steps_per_sort": steps,
+        "particles": rounds[0]["particles"],
+    }  # fmt: skip
 
 
 def machine():
@@ -128,21 +142,25 @@ def machine():
         lines = Path("/proc/cpuinfo").read_text().splitlines()
         name = next((s.split(":")[1].strip() for s in lines if s.startswith("model name")), name)
     load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    return f"{name}, {os.cpu_count()} cores, Python {platform.python_version()}{load}"
+    python, taichi = platform.python_version(), version("taichi")
+    return f"{name}, {os.cpu_count()} cores, Python {python}, Taichi {taichi}{load}"
 
 
 def table(results):
     """One row per form: ns by stage, total, million particle-steps per second, ratios."""
     names = ["clear", "p2g", "grid_update", "g2p", "update_stress", "sort"]
-    head = ["case", *names, "total", "Mp/s", "of sorted", "of random", "first calls"]
+    head = ["case", *names, "sort per step", "total", "Mp/s"]
+    head += ["of sorted", "of random", "first calls"]
     rows = [head, ["---"] * len(head)]
     for case, forms in results.items():
         sorted_total, random_total = (forms[name]["total"] for name in TEXTBOOK)
         for form, best in forms.items():
             cells = [f"{best['stages'][n]:.1f}" if n in best["stages"] else "" for n in names]
             total = best["total"]
+            share = best["stages"].get("sort", 0.0) / best["steps_per_sort"]
             rows.append([
-                f"{case} {form}", *cells, f"{total:.1f}", f"{1e3 / total:.1f}",
+                f"{case} {form}", *cells, f"{share:.1f}" if share else "",
+                f"{total:.1f}", f"{1e3 / total:.1f}",
                 f"{total / sorted_total:.3f}", f"{total / random_total:.3f}",
                 f"{best['first_calls']:.1f} s",
             ])  # fmt: skip
@@ -158,31 +176,33 @@ def main():
         dim, precision, count, form = sys.argv[2:6]
         print(json.dumps(measure(int(dim), precision, int(count), form)))
         return
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="3D f32 and MLS only, fewer particles")
-    parser.add_argument("--dim", type=int, nargs="+", choices=(2, 3), default=[3, 2])
-    parser.add_argument("--precision", nargs="+", choices=("f32", "f64"), default=["f32", "f64"])
+    parser = argparse.ArgumentParser(description="CPU time per particle-step")
+    parser.add_argument("--quick", action="store_true", help="only MLS; 3D, f32, 200,000, 1 round")
+    parser.add_argument("--dim", type=int, nargs="+", choices=(2, 3))
+    parser.add_argument("--precision", nargs="+", choices=("f32", "f64"))
     parser.add_argument("--particles", type=int, help="about this many")
-    parser.add_argument("--rounds", type=int, default=2, help="processes of each form")
+    parser.add_argument("--rounds", type=int, help="processes of each form")
     parser.add_argument("--json", type=Path, help="write all numbers to this file")
     options = parser.parse_args()
-    forms, count = FORMS, options.particles
-    if options.quick:
-        options.dim, options.precision, options.rounds = [3], ["f32"], 1
-        forms, count = FORMS[:1], count or 200_000
-    print(f"{machine()}; CPU ns per particle-step, one thread; sort: once, not in the total\n")
+    quick = options.quick
+    forms = FORMS[:1] if quick else FORMS
+    dims = options.dim or ([3] if quick else [3, 2])
+    precisions = options.precision or (["f32"] if quick else ["f32", "f64"])
+    rounds = options.rounds or (1 if quick else 2)
+    about = machine()
+    print(f"{about}; CPU ns per particle-step, one thread\n")
     results = {}
-    for dim in options.dim:
-        for precision in options.precision:
-            arguments = dim, precision, count or DEFAULT_PARTICLES[dim]
-            rounds = {form: [] for form in [*forms, *TEXTBOOK]}
-            for _ in range(options.rounds):
-                for form, measured in rounds.items():
-                    measured.append(child(*arguments, form))
-            results[f"{dim}D {precision}"] = {form: least(r) for form, r in rounds.items()}
+    for dim in dims:
+        for precision in precisions:
+            count = options.particles or (200_000 if quick else DEFAULT_PARTICLES[dim])
+            measured = {form: [] for form in [*forms, *TEXTBOOK]}
+            for _ in range(rounds):
+                for form in measured:
+                    measured[form].append(child(dim, precision, count, form))
+            results[f"{dim}D {precision}"] = {form: least(r) for form, r in measured.items()}
     print(table(results))
     if options.json:
-        content = {"machine": machine(), "rounds": options.rounds, "results": results}
+        content = {"machine": about, "rounds": rounds, "results": results}
         options.json.write_text(json.dumps(content, indent=2) + "\n")
 
 

@@ -1,7 +1,8 @@
 """Material Point Method in Taichi: scenes in YAML, 2D plane strain and 3D.
 
     from mpm_taichi import Simulation, load_scene
-    Simulation(load_scene("scenes/two_disks.yaml")).run()
+    for simulation in Simulation(load_scene("scenes/two_disks.yaml")).frames():
+        print(simulation.time, simulation.snapshot.speed.max())
 
 Importing the package starts nothing; `runtime.start` holds the one call of `ti.init`."""
 

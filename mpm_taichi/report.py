@@ -2,11 +2,13 @@
 
 import dataclasses
 import platform
+import re
 import time
 from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
 
+KEPT = r"mass|(angular_)?momentum(_[xyz])?|(kinetic|elastic|gravitational)_energy"
 PACKAGES = ("taichi", "numpy", "gmsh", "meshio", "pydantic")
 
 
@@ -41,6 +43,7 @@ class Report:
                 "shortest": time_step.shortest if simulation.step_count else None,
                 "longest": time_step.longest if simulation.step_count else None,
                 "chosen_by": "scene" if time_step.given is not None else "auto",
+                "longer_than_limit": time_step.too_long,
                 "limits_at_start": [
                     limit._asdict() for limit in time_step.limits(simulation.start_speed)
                 ],
@@ -68,6 +71,5 @@ def installed(package: str) -> str | None:
 
 def conservation(first: dict, last: dict) -> dict:
     """Start, end and change of what a free system keeps."""
-    kept = [n for n in first if n == "mass" or n.startswith(("momentum", "angular_momentum"))]
-    kept += [n for n in first if n.endswith("_energy")]
+    kept = [name for name in first if re.fullmatch(KEPT, name)]
     return {n: {"start": first[n], "end": last[n], "change": last[n] - first[n]} for n in kept}

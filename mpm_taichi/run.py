@@ -56,6 +56,10 @@ def run(scene, name, options, console: Console) -> int:
         status, error, code = "interrupted", f"by {signal_name}", signal_name.exit_code
     except OSError as failure:
         status, error, code = "failed", f"writing to {folder} failed: {failure}", 1
+    except BaseException as fault:
+        with contextlib.suppress(OSError):
+            run_folder.write_json(folder / "run.json", report.content("failed", None, repr(fault)))
+        raise
     content = report.content(status, history, error)
     try:
         run_folder.write_json(folder / "run.json", content)

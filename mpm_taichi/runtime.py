@@ -16,8 +16,6 @@ else:
     Template = ti.template()  # fixed when the kernel is compiled
     Array = ti.types.ndarray()  # a NumPy array, which a kernel on a CPU reads and writes in place
 
-DEVICES = ("cpu", "cuda", "vulkan", "metal")
-
 
 def default_precision(device: str) -> str:
     """f64 where it costs little (1.1 to 1.3 times f32 on a CPU), f32 on Vulkan and Metal."""

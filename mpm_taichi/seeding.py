@@ -39,8 +39,14 @@ def seed(scene) -> tuple[list[Points], list[SeedingReport]]:
     """Points and report of each body of a Scene; points outside the domain are an InputError."""
     points, reports = [], []
     for index, body in enumerate(scene.bodies):
-        mine = body.particles.points(body.shape, scene.cell_size, scene.dimension)
-        _refuse_outside(mine, f"bodies[{index}].particles", body.name, scene.domain.size)
+        key = f"bodies[{index}].particles"
+        try:
+            mine = body.particles.points(body.shape, scene.cell_size, scene.dimension)
+        except InputError as error:
+            raise InputError(f"{key} ({body.name}): {error}") from None
+        except MemoryError:
+            raise InputError(f"{key} ({body.name}): the points do not fit into memory") from None
+        _refuse_outside(mine, key, body.name, scene.domain.size)
         exact = None if body.shape is None else body.shape.volume()
         points.append(mine)
         reports.append(seeding_report(body.name, mine, scene.cell_size, exact))

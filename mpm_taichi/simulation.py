@@ -33,6 +33,8 @@ class Simulation:
         self.precision = precision or scene.method.precision or runtime.default_precision(device)
         points, self.seeding = seed(scene)
         self.ranges = np.cumsum([0, *(len(p.x) for p in points)])
+        if threads and device != "cpu":
+            raise InputError(f"--threads: is for --device cpu ({device} has its own)")
         self.threads = threads or self._worthwhile_threads()
         if self.threads > MOST_THREADS:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
@@ -45,11 +47,17 @@ class Simulation:
             )
             for body, p in zip(scene.bodies, points, strict=True)
         ]  # fmt: skip
-        self.solver = Solver(
-            bodies, scene.domain.cells, scene.cell_size, scene.method.basis_class,
-            scene.method.transfer_class, scene.domain.rules, scene.gravity_vector,
-            mass_cutoff=scene.method.mass_cutoff, threads=self.threads, atomic=device != "cpu",
-        )  # fmt: skip
+        try:
+            self.solver = Solver(
+                bodies, scene.domain.cells, scene.cell_size, scene.method.basis_class,
+                scene.method.transfer_class, scene.domain.rules, scene.gravity_vector,
+                mass_cutoff=scene.method.mass_cutoff, threads=self.threads, atomic=device != "cpu",
+            )  # fmt: skip
+        except (RuntimeError, MemoryError):  # Taichi's allocator says no more than that
+            raise InputError(
+                f"{self.ranges[-1]} particles and {' x '.join(map(str, scene.domain.cells))} cells "
+                "do not fit into memory: take fewer, larger cells (domain.cells) or fewer particles"
+            ) from None
         self._constant = {
             "mass": self.solver.particles.to_numpy("m"),
             "initial_volume": self.solver.particles.to_numpy("V0"),
@@ -58,7 +66,9 @@ class Simulation:
         self.time_step = TimeStep(scene, given, scene.time.safety)
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
-        self.start_speed = max(np.linalg.norm(body.v, axis=1).max() for body in bodies)
+        self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
+        self.limit = self.time_step.limits(self.start_speed)[0]
+        self.last_dt = 0.0
         self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
         self.solver.start(self.dt)
 
@@ -98,7 +108,8 @@ class Simulation:
             dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
         )
         self.time, self.step_count = time, self.step_count + 1
-        self.time_step.note(dt)
+        self.last_dt = dt
+        self.time_step.note(dt, self.limit)
         self.__dict__.pop("snapshot", None)
         self._stop_if_lost()
         self.output_count += landing
@@ -139,18 +150,22 @@ class Simulation:
         lost = self.solver.particles.lost[None]
         if lost < self.ranges[-1]:
             x = self.solver.particles.to_numpy("x")[lost]
+            when = f"t = {self.time:.6g} s, step {self.step_count}"
+            who = f"{when}: {self.describe_particle(lost)}"
+            if not np.isfinite(x).all():
+                raise RunError(f"{who} has a position that is no number. {self._advice()}")
             raise RunError(
-                f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(lost)} "
-                f"has left the domain {self.scene.domain.size}: its position is "
-                f"{[float(f'{value:.6g}') for value in x]}. Make the domain larger or give it "
-                f"walls (domain.walls), or, if it should not have moved so: {self._advice()}"
+                f"{who} has left the domain {self.scene.domain.size}: it is at "
+                f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger or give it "
+                "walls (domain.walls; a fast soft body can still be pressed through one), or, if it "
+                f"should not have moved so: {self._advice()}"
             )
 
     def _advice(self):
-        limit = self.time_step.limits(self.start_speed)[0]
         return (
             f"a shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
-            f"{limit.name} limit at the start is {limit.seconds:.3g} s ({limit.cause})."
+            f"{self.limit.name} limit at the start is {self.limit.seconds:.3g} s "
+            f"({self.limit.cause})."
         )
 
     def warnings(self) -> dict[str, int]:
@@ -158,11 +173,9 @@ class Simulation:
         found = {}
         cut = self.solver.grid.cut[None]
         if cut:
-            found["nodes as light as a rounding error, taken as empty (one a node and step)"] = cut
-        if self.time_step.given is not None:
-            limit = self.time_step.limits(self.start_speed)[0]
-            if self.time_step.given > limit.seconds:
-                found[f"steps longer than the {limit.name} limit"] = self.step_count
+            found["nodes below the mass cut-off, taken as empty (counted each step)"] = cut
+        if self.time_step.too_long:
+            found[f"steps longer than the {self.limit.name} limit"] = self.time_step.too_long
         return found
 
     def describe_particle(self, number: int) -> str:

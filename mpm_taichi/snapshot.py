@@ -20,9 +20,8 @@ class Snapshot:
     deformation_gradient: np.ndarray  # [n, dim, dim]
     cauchy_stress: np.ndarray  # [n, 3, 3] Pa; in plane strain with its out-of-plane component
     energy_density: np.ndarray  # [n] J/m^3, elastic, per reference volume
-    spin: (
-        np.ndarray
-    )  # [n, dim, dim] kg m^2/s: moments of the affine velocity, sum_i w_i m r_i v_i^T
+    # Skew part of the moments of the affine velocity, sum_i w_i m r_i (C r_i)^T:
+    spin: np.ndarray  # [n, dim, dim] kg m^2/s
 
     @property
     def speed(self) -> np.ndarray:

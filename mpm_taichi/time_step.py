@@ -12,8 +12,9 @@ from math import hypot, inf, sqrt
 from typing import NamedTuple
 
 GROWTH = 1.02
-"""An automatic step shrinks at once and grows by at most this factor from one step to the next: a
-step that follows the phase of an oscillation would feed energy into it."""
+"""The length that an automatic step may have shrinks at once and grows by at most this factor from
+one step to the next: steps that follow the phase of an oscillation would feed energy into it.
+Steps are cut further, at most in half, to land on outputs."""
 
 
 class Limit(NamedTuple):
@@ -50,13 +51,14 @@ class TimeStep:
     def __init__(self, scene, given, safety):
         self.scene, self.given, self.safety = scene, given, safety
         self.last = inf
-        self.binding = Limit("given", inf, "time.step")
-        self.shortest, self.longest = inf, 0.0
+        self.shortest, self.longest, self.too_long = inf, 0.0, 0
 
     def limits(self, speed):
+        """All limits at the largest speed [m/s], of the materials that bodies have."""
         method = self.scene.method
+        used = {body.material: self.scene.materials[body.material] for body in self.scene.bodies}
         return limits(
-            self.scene.materials, method.basis_class, method.transfer_class,
+            used, method.basis_class, method.transfer_class,
             self.scene.cell_size, self.scene.gravity_vector, speed,
         )  # fmt: skip
 
@@ -64,8 +66,7 @@ class TimeStep:
         """The longest step [s] that may be taken at the largest speed [m/s]."""
         if self.given is not None:
             return self.given
-        self.binding = self.limits(speed)[0]
-        self.last = min(self.safety * self.binding.seconds, GROWTH * self.last)
+        self.last = min(self.safety * self.limits(speed)[0].seconds, GROWTH * self.last)
         return self.last
 
     def describe(self, speed: float, dt: float) -> list[str]:
@@ -89,6 +90,7 @@ class TimeStep:
             )
         return lines
 
-    def note(self, dt: float) -> None:
-        """Remember a step that was taken."""
+    def note(self, dt: float, limit: Limit) -> None:
+        """Remember a step that was taken, and whether it was longer than a limit."""
         self.shortest, self.longest = min(self.shortest, dt), max(self.longest, dt)
+        self.too_long += int(dt > limit.seconds)

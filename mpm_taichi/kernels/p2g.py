@@ -82,7 +82,8 @@ def scatter_particles(
             if counter % 512 == 0:
                 for pair in range(grid.slabs // 2):
                     slab = 2 * pair + color
-                    if int(grid.share[slab] * threads) == counter // 512:
+                    # In f32 the share of the last slab may round up to 1.
+                    if ti.min(int(grid.share[slab] * threads), threads - 1) == counter // 512:
                         for g in range(particles.group_count):
                             for p in range(grid.start[g, slab], grid.start[g, slab + 1]):
                                 scatter_particle(p, particles, grid, basis, transfer)

@@ -22,13 +22,16 @@ def volume_strain(H):
 
 @ti.func
 def log_volume_ratio(strain):
-    """ln(1 + strain), to round-off of the result also where strain is small; NaN below -1.
+    """ln(1 + strain), to round-off of the result also where strain is small; NaN from -1
+    down.
 
     ln((1 + z) / (1 - z)) = 2 (z + z^3/3 + z^5/5 + ...) with z = strain / (2 + strain); below
-    |strain| = 0.1 six terms leave less than 2e-17 of the result.  Larger strains are brought there
+    |strain| = 0.1 six terms leave less than 4e-17 of the result.  Larger strains are brought there
     by ln(1 + strain) = 2 ln(1 + s), s = sqrt(1 + strain) - 1.  No library logarithm: Vulkan has
     none in f64, and the call would cost a neo-Hookean update 5 ns of 45."""
     s, factor = strain, 2.0
+    if strain <= -1.0:
+        s = ti.math.nan
     while ti.abs(s) > 0.1 and factor < 2.0**14:  # 13 halvings do for every finite f64
         s = s / (1.0 + ti.sqrt(1.0 + s))
         factor *= 2.0

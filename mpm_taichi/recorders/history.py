@@ -14,7 +14,7 @@ class History:
         self.gravity = simulation.scene.gravity_vector
         self.first: dict[str, float] | None = None
         self.last: dict[str, float] | None = None
-        self._file = path.open("w", newline="")
+        self._file = path.open("w", newline="", encoding="utf-8")
         self._writer = csv.writer(self._file, lineterminator="\n")
 
     def record(self, simulation, is_output):
@@ -40,7 +40,7 @@ class History:
         row = {
             "time": snapshot.time,
             "step": snapshot.step,
-            "time_step": simulation.dt,
+            "time_step": simulation.last_dt,
             "mass": snapshot.mass.sum(),
             **{f"momentum_{axis}": p for axis, p in zip(axes, momentum, strict=True)},
             **{f"angular_momentum{axis}": L for axis, L in zip(turning, angular, strict=True)},

@@ -14,7 +14,6 @@ class Images:
         self.folder, self.style = folder, style
         self.count = 0
         self.low, self.high = (0.0, 0.0) if style.range is None else style.range
-        self.last: Path | None = None
 
     def record(self, simulation, is_output):
         if not is_output:
@@ -41,9 +40,9 @@ class Images:
             value=value,
             value_range=(float(self.low), float(self.high)),
         )
-        self.last = self.folder / f"frame_{self.count:04d}.png"
+        path = self.folder / f"frame_{self.count:04d}.png"
         write_png(
-            self.last,
+            path,
             draw(frame, self.style.grid, self.style.size),
             {"Title": scene.title, "time": repr(snapshot.time)},
         )

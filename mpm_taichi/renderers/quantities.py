@@ -1,4 +1,4 @@
-"""What a picture can show by color besides the bodies.  To add one, add a line."""
+"""What a picture can show by color besides the bodies: units and color maps."""
 
 import math
 from collections.abc import Callable

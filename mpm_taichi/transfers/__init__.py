@@ -9,7 +9,7 @@ the nodes return, is all that a transfer says:
 - `increment`  it also gathers the change of the nodal velocity, sum_i w_i (v_i - v_i^old) [m/s]
 - `isolated_limit(basis)`  largest dt sqrt(M_d / rho) / dx of a lone particle under USL, where
   M_d = d lam + 2 mu (numerics.md 4.1); None where there is none above zero
-- `affine_momentum(m, C, T, D_inverse)`  A [kg/s]
+- `affine_momentum(m, C, T, D_inverse)`  A [kg/s], linear in (m, D_inverse)
 - `velocity(v_flip, v_pic)`              the new velocity of the particle [m/s]
 - `gradients(B, S, D_inverse)`           C and L [1/s], S being the gathered sum v_i dw_i^T
 """

@@ -16,5 +16,5 @@ def volume_strain(H):
 
 
 def log_volume_ratio(strain):
-    """ln(1 + strain)."""
-    return np.log1p(strain)
+    """ln(1 + strain); NaN from -1 down."""
+    return np.log1p(strain) if strain > -1 else np.nan
