@@ -16,8 +16,8 @@ def test_textbook_form_is_the_same_method(fast, monkeypatch, dim):
     """Ten steps from the same start, f64: positions and velocities equal to 1e-11 of the largest
     (other order of additions, ln J by another formula)."""
     monkeypatch.syspath_prepend(str(BENCHMARKS))
-    from textbook import Textbook
-    from throughput import block
+    from textbook import Textbook  # pyright: ignore[reportMissingImports]
+    from throughput import block  # pyright: ignore[reportMissingImports]
 
     from mpm_taichi.bases import QuadraticBSpline
     from mpm_taichi.materials import NeoHookean

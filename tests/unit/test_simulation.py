@@ -1,0 +1,133 @@
+"""A Simulation as a program uses it: one after another, frame by frame, and when it goes wrong."""
+
+import numpy as np
+import pytest
+
+from mpm_taichi import Simulation, diagnostics, load_scene
+from mpm_taichi.errors import InputError, RunError
+from tests.command_line import SCENES
+
+SHORT = ("time.end=0.05", "output.every=0.02")
+NEO_HOOKEAN = "{type: neo_hookean, density: 1000, youngs_modulus: 1000, poissons_ratio: 0.3}"
+
+
+def scene(*changes: str):
+    return load_scene(SCENES / "two_disks_lattice.yaml", [*SHORT, *changes])
+
+
+class Seen:
+    """A recorder that notes what it is shown, and where the particles are at outputs."""
+
+    def __init__(self):
+        self.steps: list[int] = []
+        self.outputs: list[tuple[float, int, np.ndarray]] = []
+
+    def record(self, simulation, is_output):
+        self.steps.append(simulation.step_count)
+        if is_output:
+            moment = simulation.snapshot
+            self.outputs.append((simulation.time, simulation.step_count, moment.position))
+
+
+def test_a_run_shows_its_steps_and_repeats():
+    """Recorders see the start, each of 50 steps and the end, with outputs at 0, 0.02, 0.04, 0.05 s.
+
+    A second Simulation in the same process starts afresh; `for now in simulation.frames()` pauses
+    at the same outputs, and the numbers are the same to the last bit."""
+    first, seen = Simulation(scene()), Seen()
+    first.run([seen])
+    assert first.is_done
+    assert first.time == first.end == 0.05
+    assert seen.steps == list(range(51))
+    assert [(t, step) for t, step, _ in seen.outputs] == [
+        (0.0, 0), (0.02, 20), (0.04, 40), (0.05, 50),
+    ]  # fmt: skip
+    assert first.warnings() == {}
+    again = Simulation(scene())
+    assert (again.time, again.step_count) == (0.0, 0)
+    for (t, step, x), now in zip(seen.outputs, again.frames(), strict=True):
+        assert (now.time, now.step_count) == (t, step)
+        assert (now.snapshot.position == x).all()
+        assert now.snapshot.time == t
+    assert list(again.frames()) == [again]  # where it is: at its end
+
+
+def test_a_snapshot_is_of_its_moment():
+    """The start is as given: 0.625 kg each, F = I, no stress, 2.6 J of motion and no other energy.
+
+    A snapshot is taken once a step, and again after the next: disks that fly at 0.1 m/s per axis
+    are 0.1 dt further, to rounding.  Its arrays are the reader's, to keep or to spoil."""
+    simulation = Simulation(scene())
+    before = simulation.snapshot
+    assert before.mass == pytest.approx(np.full(416, 0.625), rel=1e-14)
+    assert (before.deformation_gradient == np.eye(2)).all()
+    assert not before.cauchy_stress.any()
+    assert diagnostics.kinetic_energy(before) == pytest.approx(2.6, rel=1e-14)
+    assert diagnostics.elastic_energy(before) == 0
+    assert simulation.describe_particle(207) == "particle 207 (body lower, material rubber)"
+    assert simulation.describe_particle(208) == "particle 208 (body upper, material rubber)"
+    assert simulation.snapshot is before
+    x = before.position.copy()
+    before.velocity[:] = np.nan
+    simulation.step()
+    moved = simulation.snapshot.position - x
+    sign = np.where(simulation.body_of_particle == 0, 1, -1)[:, None]
+    assert np.abs(moved - 0.1 * 1e-3 * sign).max() < 1e-15
+    assert (before.position == x).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_number_that_is_none_ends_the_run():
+    """NaN in the position, deformation or momentum of one particle of 416, wherever the sort has
+    put it, or a neo-Hookean particle turned inside out, F = diag(-1, 1), whose J < 0 has no
+    logarithm: a RunError that names it by its place in the scene, with the moment and advice."""
+    simulation = Simulation(scene(f"materials.rubber={NEO_HOOKEAN}"))
+    simulation.step()
+    particles = simulation.solver.particles
+    place = int(np.flatnonzero(particles.id.to_numpy() == 300)[0])
+    mirrored = np.diag([-2.0, 0.0])
+    for name, value in (("x", np.nan), ("H", np.nan), ("rows", np.nan), ("H", mirrored)):
+        field = getattr(particles, name)
+        whole = field.to_numpy()
+        spoiled = whole.copy()
+        spoiled[place] = value
+        field.from_numpy(spoiled)
+        simulation.__dict__.pop("snapshot", None)
+        with pytest.raises(RunError) as found:
+            _ = simulation.snapshot
+        field.from_numpy(whole)
+        text = str(found.value)
+        assert text.startswith("t = 0.001 s, step 1: particle 300 (body upper, material rubber)")
+        assert "that is no number. a shorter time.step may help: steps were up to 0.001 s" in text
+    assert simulation.snapshot.step == 1
+
+
+def test_a_speed_beyond_all_bounds():
+    """|v|^2 of 1e200 m/s overflows: an automatic step would be 0.  RunError, not a division."""
+    with np.errstate(over="ignore"), pytest.raises(RunError, match="time step would be 0 s"):
+        Simulation(scene("time.step=auto", "bodies[0].velocity=[1e200, 0]"))
+
+
+def test_warnings_count_what_a_reader_should_know():
+    """Three steps of 0.0625 s are above the acoustic limit of 0.0263 s.  Two of them bring lattice
+    points from 0.0125 to 0.025 m, where hat functions carry a weight of rounding error to the next
+    node: taken as none, and counted."""
+    simulation = Simulation(scene("time.step=0.0625", "time.end=0.1875", "output.every=0.1875"))
+    simulation.run()
+    found = simulation.warnings()
+    empty = "nodes below the mass cut-off, taken as empty (counted each step)"
+    assert found.keys() == {"steps longer than the acoustic limit", empty}
+    assert found["steps longer than the acoustic limit"] == 3
+    assert found[empty] > 0
+
+
+def test_too_many_threads():
+    """A count of threads that no machine has would overflow loop counters: refused in words."""
+    with pytest.raises(InputError, match=r"--threads: at most 1024 \(got 5000000\)"):
+        Simulation(scene(), threads=5_000_000)
+
+
+def test_a_precision_that_a_device_lacks():
+    """Metal has no f64: refused before anything starts, on any computer, with the way out."""
+    with pytest.raises(InputError, match="no 64-bit floats: take --precision f32"):
+        Simulation(scene(), device="metal", precision="f64")
