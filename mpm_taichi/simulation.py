@@ -157,7 +157,7 @@ class Simulation:
             raise RunError(
                 f"{who} has left the domain {self.scene.domain.size}: it is at "
                 f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger or give it "
-                "walls (domain.walls; a fast soft body can still be pressed through one), or, if it "
+                "walls (domain.walls; a fast soft body can still be pressed through), or, if it "
                 f"should not have moved so: {self._advice()}"
             )
 

@@ -91,6 +91,7 @@ class TimeStep:
         return lines
 
     def note(self, dt: float, limit: Limit) -> None:
-        """Remember a step that was taken, and whether it was longer than a limit."""
+        """Remember a step that was taken, and whether, being given, it exceeds the limit at the
+        start.  An automatic one obeys the limits of its own moment."""
         self.shortest, self.longest = min(self.shortest, dt), max(self.longest, dt)
-        self.too_long += int(dt > limit.seconds)
+        self.too_long += int(self.given is not None and dt > limit.seconds)
