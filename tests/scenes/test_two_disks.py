@@ -132,7 +132,7 @@ def test_generic_collision_equals_plain_numpy(rng):
     are one method in the same precision: they differ by rounding errors, which contact multiplies.
 
     Before contact (no stress, energies of 2.6): 1e-12, some 1000 roundings of 1e-16 each.  Up to
-    t = 2 measured 5e-14 to 6e-13 in six draws; a particle that crosses a node at a weight w has a
+    t = 2 measured up to 2e-12 in four draws; a particle that crosses a node at a weight w has a
     force known to 1e-16 / w only, and the least weight of some 10^4 crossings is 1e-7: 1e-8 leaves
     a factor of ten above that."""
     velocity = np.array([[0.1, 0.1], [-0.1, -0.1]]) * (1 + 0.02 * rng.uniform(-1, 1, (2, 2)))
