@@ -20,8 +20,9 @@ def bodies(rng, dim):
     """Clouds of two unlike materials that overlap and fly at each other, beside walls; the second
     material's body lies between the two bodies of the first in the order of the scene.
 
-    No particle is within a twentieth of a cell of a node plane, where hat functions would leave
-    nodes of almost no mass, which magnify the rounding errors that are compared."""
+    No particle is within a twentieth of a cell of a plane through nodes or midway between them,
+    where a stencil begins and ends: nodes of almost no mass magnify the rounding errors that are
+    compared."""
     center = 0.5 * DX * np.array(CELLS[dim])
     soft = NeoHookean(type="neo_hookean", density=900, youngs_modulus=2e5, poissons_ratio=0.3)
     hard = LinearElastic(
@@ -31,7 +32,7 @@ def bodies(rng, dim):
     for material, shift, sign in clouds:
         count = int(rng.integers(8, 14))
         xi = center / DX + shift + 2.4 * (rng.random((count, dim)) - 0.5)
-        x = DX * (np.floor(xi) + 0.05 + 0.9 * (xi % 1))
+        x = DX * (np.floor(2 * xi) + 0.1 + 0.8 * (2 * xi % 1)) / 2
         v = rng.normal(size=(count, dim)) + sign * np.arange(2, dim + 2)
         yield BodyPoints(material, x, v, DX**dim / 8 * (0.5 + rng.random(count)))
 
