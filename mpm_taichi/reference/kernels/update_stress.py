@@ -23,5 +23,5 @@ def update_stress(particles, group, grid, transfer, dt, dt_next):
             particles.A[p] = transfer.affine_momentum(m, C, T, grid.inverse_moment)
         x = particles.x[p] + dt * v_pic
         particles.x[p] = x
-        if not (x.min() >= 0 and (np.array(grid.cells) * grid.dx - x).min() >= 0):
+        if not ((x >= 0).all() and (x <= np.array(grid.cells) * grid.dx).all()):
             particles.lost = min(particles.lost, p)
