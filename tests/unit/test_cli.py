@@ -335,7 +335,7 @@ def test_a_particle_that_leaves_ends_the_run(tmp_path, capfd):
     assert in_words(err)
     for words in (
         "t = 0.013 s, step 13: particle 0 (body lower, material rubber) has left the domain",
-        "[1.0, 1.0]: it is at [-0.0005, 0.1", "walls (domain.walls)",
+        "[1.0, 1.0]: it is at [-0.0005, 0.1", "walls (domain.walls",
     ):  # fmt: skip
         assert words in err
     content = json.loads((folder / "run.json").read_text())
