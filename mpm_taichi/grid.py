@@ -17,17 +17,25 @@ class Grid:
 
     The closed domain [0, size] has `cells` cells and, around them, ghost nodes as wide as the
     stencil.  `groups` is the number of materials, `mass_cutoff` the mass [kg] up to which a node
-    counts as empty."""
+    counts as empty, `walls` and `periodic` the sides with a rule and the axes that close on
+    themselves."""
 
-    def __init__(self, cells, dx, basis, groups, increment, mass_cutoff, threads, atomic):
+    def __init__(
+        self, cells, dx, basis, groups, increment, mass_cutoff, walls, periodic, threads, atomic
+    ):
         self.dim, self.cells, self.dx = len(cells), tuple(cells), dx
         self.increment, self.threads, self.atomic = increment, threads, atomic
+        self.periodic = tuple(periodic)
+        self.walled = tuple((wall.axis, wall.upper) for wall in walls)
+        # Hat functions and modified splines give nothing to the nodes behind a wall.
+        mirrors = basis.support > 2 and not basis.modified
+        self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
         self.ghost = basis.support
         self.lines = list(product(range(basis.support), repeat=self.dim - 1))
         # Rows and planes are PAD nodes longer than the box: strides of a power of two would put
         # the lines of a stencil into the same few sets of the first-level cache.
-        nodes = [n + 1 + 2 * self.ghost for n in cells]
-        self.extent = (nodes[0], *(n + PAD for n in nodes[1:]))
+        self.shape = tuple(n + 1 + 2 * self.ghost for n in cells)
+        self.extent = (self.shape[0], *(n + PAD for n in self.shape[1:]))
         strides = [1]
         for n in reversed(self.extent[1:]):
             strides.insert(0, n * strides[0])
@@ -58,7 +66,7 @@ class Grid:
         numbers = {
             "dx": dx,
             "inv_dx": 1.0 / dx,
-            "inverse_moment": (basis.inverse_moment or 0.0) / dx**2,
+            "inverse_moment": (basis.inverse_moment or 1.0) / dx**2,
             "mass_cutoff": mass_cutoff,
         }
         size = ti.types.vector(self.dim, float)

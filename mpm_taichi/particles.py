@@ -12,18 +12,32 @@ from .materials import Material
 
 @dataclass(frozen=True)
 class BodyPoints:
-    """The particles of one body at the start: x, v [n, dim] (m, m/s), V0 [n] (m^dim), material."""
+    """The particles of one body at the start: material; x, v [n, dim] (m, m/s), V0 [n] (m^dim); of a
+    body that starts deformed also its places before, X [n, dim] (m), and H = F - I [n, dim, dim]."""
 
     material: Material
     x: np.ndarray
     v: np.ndarray
     V0: np.ndarray
+    X: np.ndarray | None = None
+    H: np.ndarray | None = None
+
+    @property
+    def undeformed(self) -> np.ndarray:
+        return self.x if self.X is None else self.X
+
+    @property
+    def displacement_gradient(self) -> np.ndarray:
+        dim = self.x.shape[1]
+        return np.zeros((len(self.x), dim, dim)) if self.H is None else self.H
 
 
 class Group:
-    """All particles of one material: its law, constants in a 0-D struct field, state, range."""
+    """All particles of one material: its law, constants in a 0-D struct field, state, range.
 
-    def __init__(self, material, dim, dx, begin, end):
+    H [end - begin, dim, dim] is where the history of a law starts."""
+
+    def __init__(self, material, dim, dx, begin, end, H):
         self.material, self.law, self.begin, self.end = material, type(material), begin, end
         numbers = material.constants(dx)
         self.constants = ti.Struct.field(dict.fromkeys(numbers, float), shape=())
@@ -33,11 +47,8 @@ class Group:
         if self.has_state:
             self.state = self._state_field(dim)
             self.scratch = self._state_field(dim)
-            for name, start in material.state(dim).items():
-                start = np.asarray(start, float)
-                self.state.get_member_field(name).from_numpy(
-                    np.broadcast_to(start, (end - begin, *start.shape)).copy()
-                )
+            for name, start in material.start(H).items():
+                self.state.get_member_field(name).from_numpy(start)
 
     def _state_field(self, dim):
         kinds = {
@@ -51,14 +62,16 @@ class Group:
 
 class Particles:
     """x [m], H = F - I [-], m [kg], V0 [m^dim], id (place in the order of the scene), and the rows
-    that travel between particles and nodes (kernels/rows.py).
+    that travel between particles and nodes (kernels/rows.py); where the scene needs them, half_width
+    [cells] for a basis that takes particles as extended, and X [m], the place before deformation,
+    for a body force that depends on it.
 
     `lost` is the least id of a particle outside the domain, or the number of particles."""
 
-    def __init__(self, bodies, transfer, dx):
+    def __init__(self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None):
         self.dim = bodies[0].x.shape[1]
         self.count = sum(len(body.x) for body in bodies)
-        self.layout = RowLayout(transfer, self.dim)
+        self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None)
         self.transfer = transfer
         materials = list(dict.fromkeys(body.material for body in bodies))
         self.group_count = len(materials)
@@ -66,8 +79,9 @@ class Particles:
                          [len(body.x) for body in bodies])  # fmt: skip
         id = np.argsort(kind, kind="stable")
         ends = np.cumsum(np.bincount(kind, minlength=len(materials)))
+        H = np.concatenate([body.displacement_gradient for body in bodies])[id]
         self.groups = [
-            Group(material, self.dim, dx, int(begin), int(end))
+            Group(material, self.dim, dx, int(begin), int(end), H[begin:end])
             for material, begin, end in zip(materials, [0, *ends[:-1]], ends, strict=True)
         ]
         self.x = ti.Vector.field(self.dim, float, self.count)
@@ -87,12 +101,25 @@ class Particles:
             (self.id, whole),
             (self.rows, ti.Vector.field(4, float, self.rows.shape)),
         ]
+        self.X = self.x
+        if body_force is not None and body_force.variables & {"X", "Y", "Z"}:
+            self.X = ti.Vector.field(self.dim, float, self.count)
+            self.carried.append((self.X, self.carried[0][1]))
+        if basis.extended:
+            self.half_width: Any = ti.field(float, self.count)
+            self.carried.append((self.half_width, reals))
 
         self.dtype = np.dtype(self.x.to_numpy().dtype.name)
         m = np.concatenate([body.material.density * body.V0 for body in bodies])[id]
         v = np.concatenate([body.v for body in bodies])[id]
+        V0 = np.concatenate([body.V0 for body in bodies])[id]
+        if self.X is not self.x:
+            self.X.from_numpy(np.concatenate([body.undeformed for body in bodies])[id])
+        if basis.extended:
+            self.half_width.from_numpy(0.5 * V0 ** (1 / self.dim) / dx)
         self.x.from_numpy(np.concatenate([body.x for body in bodies])[id])
-        self.V0.from_numpy(np.concatenate([body.V0 for body in bodies])[id])
+        self.H.from_numpy(H)
+        self.V0.from_numpy(V0)
         self.m.from_numpy(m)
         self.id.from_numpy(id)
         self.lost[None] = self.count
@@ -101,6 +128,7 @@ class Particles:
     def gathered(self, m, v):
         """Rows as after a gather of the velocities v, with no affine motion and no gradient."""
         rows = np.zeros((self.count, self.layout.count, 4))
+        rows[:, 0, : self.dim] = v
         rows[:, self.layout.pic, : self.dim] = v
         if self.transfer.increment:
             rows[:, 0, : self.dim] = m[:, None] * v

@@ -46,20 +46,22 @@ def seed(scene) -> tuple[list[Points], list[SeedingReport]]:
             raise InputError(f"{key} ({body.name}): {error}") from None
         except MemoryError:
             raise InputError(f"{key} ({body.name}): the points do not fit into memory") from None
-        _refuse_outside(mine, key, body.name, scene.domain.size)
+        refuse_outside(mine.x, key, body.name, scene.domain)
         exact = None if body.shape is None else body.shape.volume()
         points.append(mine)
         reports.append(seeding_report(body.name, mine, scene.cell_size, exact))
     return points, reports
 
 
-def _refuse_outside(points: Points, key: str, name: str, size: list[float]) -> None:
-    outside = ((points.x < 0) | (points.x > np.array(size))).any(axis=1)
+def refuse_outside(x: np.ndarray, key: str, name: str, domain) -> None:
+    """InputError where places x [n, dim] are outside, except along periodic axes."""
+    kept = [axis for axis in range(domain.dimension) if axis not in domain.periodic]
+    outside = ((x < 0) | (x > np.array(domain.size)))[:, kept].any(axis=1)
     if outside.any():
-        first = [float(f"{value:.6g}") for value in points.x[outside][0]]
+        first = [float(f"{value:.6g}") for value in x[outside][0]]
         raise InputError(
-            f"{key}: {outside.sum()} of {len(points.x)} particles of {name} lie outside the domain "
-            f"{size}, the first at {first}"
+            f"{key}: {outside.sum()} of {len(x)} particles of {name} lie outside the domain "
+            f"{domain.size}, the first at {first}"
         )
 
 

@@ -10,7 +10,7 @@ from .errors import InputError, RunError
 from .particles import BodyPoints
 from .scene import Scene
 from .schedules import EverySeconds, even_step
-from .seeding import seed
+from .seeding import refuse_outside, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
 from .time_step import TimeStep
@@ -19,6 +19,24 @@ PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
 
 MOST_THREADS = 1024
+
+
+def body_points(scene, index, X, V0) -> BodyPoints:
+    """The particles of a body at the start: X [n, dim] (m) are their places before the displacement
+    that the scene gives, V0 [n] their volumes."""
+    body = scene.bodies[index]
+    material, still = scene.materials[body.material], [0.0] * scene.dimension
+    x, H = X, None
+    if body.displacement is not None:
+        u = scene.field(body.displacement)
+        x, H = X + u.value(X), u.gradient(X)
+        refuse_outside(x, f"bodies[{index}].displacement", body.name, scene.domain)
+    v = scene.field(body.velocity or still).value(X)
+    for key, values in (("velocity", v), ("displacement", x)):
+        if not np.isfinite(values).all():
+            bad = X[~np.isfinite(values).all(axis=1)][0].tolist()
+            raise InputError(f"bodies[{index}].{key} ({body.name}): is no number at {bad}")
+    return BodyPoints(material, x, v, V0, X, H)
 
 
 class Simulation:
@@ -40,18 +58,17 @@ class Simulation:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
         runtime.start(device, self.precision, self.threads)
         stages.reset()
-        bodies = [
-            BodyPoints(
-                scene.materials[body.material], p.x,
-                np.tile(body.velocity or [0.0] * scene.dimension, (len(p.x), 1)), p.V0,
-            )
-            for body, p in zip(scene.bodies, points, strict=True)
-        ]  # fmt: skip
+        bodies = [body_points(scene, index, p.x, p.V0) for index, p in enumerate(points)]
+        self.initial_position = np.concatenate([body.undeformed for body in bodies])
+        method = scene.method
         try:
             self.solver = Solver(
-                bodies, scene.domain.cells, scene.cell_size, scene.method.basis_class,
-                scene.method.transfer_class, scene.domain.rules, scene.gravity_vector,
-                mass_cutoff=scene.method.mass_cutoff, threads=self.threads, atomic=device != "cpu",
+                bodies, scene.domain.cells, scene.cell_size, method.basis_class,
+                method.transfer_class, scene.domain.rules, scene.gravity_vector,
+                mass_cutoff=method.mass_cutoff, periodic=scene.domain.periodic,
+                stress_update=method.stress_update, filter_order=method.filter_order,
+                flip_part=method.flip_part, body_force=scene.field(scene.body_force),
+                threads=self.threads, atomic=device != "cpu",
             )  # fmt: skip
         except (RuntimeError, MemoryError):  # Taichi's allocator says no more than that
             raise InputError(
@@ -63,7 +80,7 @@ class Simulation:
             "initial_volume": self.solver.particles.to_numpy("V0"),
         }
         given = None if scene.time.step == "auto" else scene.time.step
-        self.time_step = TimeStep(scene, given, scene.time.safety)
+        self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
         self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
@@ -71,6 +88,19 @@ class Simulation:
         self.last_dt = 0.0
         self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
         self.solver.start(self.dt)
+
+    def _half_width(self, bodies):
+        """Of the smallest particle [cells].  InputError where a basis that takes particles as
+        extended would reach further than its stencil."""
+        edges = np.concatenate([body.V0 for body in bodies]) ** (1 / self.scene.dimension)
+        half = 0.5 * edges / self.scene.cell_size
+        basis = self.scene.method.basis_class
+        if basis.extended and half.max() > 0.5 * (1 + 1e-9):
+            raise InputError(
+                f"method.basis: {basis.name} takes particles up to a cell wide, and one is "
+                f"{2 * half.max():.3g} cells wide: take more particles, or fewer, larger cells"
+            )
+        return float(half.min())
 
     def _worthwhile_threads(self):
         if self.device != "cpu":
@@ -105,7 +135,7 @@ class Simulation:
         landing = self.time + 1.5 * dt > self.next_output
         time = self.next_output if landing else self.time + dt
         self.dt = self.solver.step(
-            dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
+            self.time, dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
         )
         self.time, self.step_count = time, self.step_count + 1
         self.last_dt = dt

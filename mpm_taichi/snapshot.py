@@ -43,7 +43,7 @@ class Snapshot:
 def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: int) -> Snapshot:
     """`constant`: `mass` and `initial_volume`, which do not change."""
     grid, dim = solver.grid, solver.grid.dim
-    values = evaluate(solver.particles, grid)
+    values = evaluate(solver.particles, grid, solver.basis)
     F = values["H"] + np.eye(dim)
     sigma = np.zeros((len(F), 3, 3))
     sigma[:, :dim, :dim] = values["tau"]
@@ -52,9 +52,9 @@ def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: in
     sigma /= np.linalg.det(F)[:, None, None]
     spin = np.zeros_like(F)
     if solver.transfer.affine:
-        # A = m C, in the MLS form plus a symmetric stress, which has no moment.
-        skew = 0.5 * (values["A"] - values["A"].swapaxes(1, 2))
-        spin = skew.swapaxes(1, 2) * grid.dx**2 / solver.basis.inverse_moment
+        # A = m C, in the MLS form (where D is one number) plus a symmetric stress: no skew part.
+        moments = grid.dx**2 * values["D"][:, :, None] * values["A"].swapaxes(1, 2)
+        spin = 0.5 * (moments - moments.swapaxes(1, 2))
     return Snapshot(
         time=time,
         step=step,

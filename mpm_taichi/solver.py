@@ -6,69 +6,128 @@ import numpy as np
 import taichi as ti
 
 from .grid import Grid
+from .kernels.body_force import push
 from .kernels.clear import clear
 from .kernels.g2p import g2p
+from .kernels.ghosts import fill_ghosts, fold_ghosts
 from .kernels.grid_update import grid_update
 from .kernels.p2g import p2g
+from .kernels.residual import take_residual
 from .kernels.sort import sort
 from .kernels.update_stress import update_stress
+from .kernels.wrap import wrap
 from .particles import Particles
 
 
 class Solver:
-    """Bodies in a box of `cells` cells of edge `dx` [m], stress updated last (USL).
+    """Bodies in a box of `cells` cells of edge `dx` [m].
 
-    `walls` lists the sides of the domain that have a rule; the others are open.  Nodes no heavier
-    than `mass_cutoff` times the lightest particle are taken as empty.  `threads` workers share the
-    work on a CPU, and the result does not depend on it; `atomic` is the form for GPUs."""
+    `walls` lists the sides of the domain that have a rule, `periodic` the axes that close on
+    themselves; other sides are open.  Nodes no heavier than `mass_cutoff` times the lightest
+    particle are taken as empty.  `stress_update` is usl, musl or usf; `flip_part(dt)` the FLIP part
+    of a blend, `filter_order` that of XPIC, `body_force` a field b(X, x, t) [m/s^2] or None.
 
-    def __init__(self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None,
-                 threads=1, atomic=False):  # fmt: skip
+    `threads` workers share the work on a CPU, and the result does not depend on it; `atomic` is the
+    form for GPUs."""
+
+    def __init__(
+        self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
+        stress_update="usl", flip_part=None, filter_order=1, body_force=None,
+        threads=1, atomic=False,
+    ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
-        self.particles = Particles(bodies, transfer, dx)
+        self.stress_update, self.body_force = stress_update, body_force
+        self.flip_part, self.filter_order = flip_part or (lambda dt: 1.0), filter_order
+        self.particles = Particles(
+            bodies, basis, transfer, dx, keeps_pic=stress_update == "musl", body_force=body_force
+        )
         self.grid = Grid(
             cells, dx, basis, self.particles.group_count, transfer.increment,
-            self._mass_cutoff(mass_cutoff, bodies, cells), threads, atomic,
+            self._mass_cutoff(mass_cutoff, bodies, cells, dx), walls, periodic, threads, atomic,
         )  # fmt: skip
         self.gravity = ti.Vector.field(self.particles.dim, float, ())
         self.gravity[None] = list(gravity)
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
-    def _mass_cutoff(self, part, bodies, cells):
+    def _mass_cutoff(self, part, bodies, cells, dx):
         """`part` of the lightest particle's mass [kg].  Not given: 0 for smooth bases.  Hat
         functions have gradients that stay where the weight goes to 0, so a weight of the size of
         the rounding error of x / dx would take a full force."""
         if part is None:
-            smooth = self.basis.steepness is not None
+            smooth = self.basis.steepness(0.25) is not None
             part = 0.0 if smooth else 16 * np.finfo(self.particles.dtype).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
 
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
+        self.update(0.0, dt)
+
+    def update(self, dt, dt_next, **parts):
         for group in self.particles.groups:
-            update_stress(self.particles, group, self.grid, self.transfer, 0.0, dt)
+            alpha = self.flip_part(dt)
+            update_stress(
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
+            )
 
     def sort_if_due(self):
         """Slabs leave room for one cell of drift.  Particles move with sum_i w_i v_i, the weights
         are >= 0 and sum to 1: none is faster than the fastest node."""
         if not self.drift < 0.99:
+            if self.grid.periodic:
+                wrap(self.particles, self.grid)
             sort(self.particles, self.grid, self.basis)
             self.drift = 0.0
             self.sorts += 1
 
-    def step(self, dt, choose_dt):
-        """Advance by dt [s]; the stress is written as the impulse of the next step, whose length
-        choose_dt(speed) gives from the largest nodal speed [m/s].  Returns that length."""
+    def step(self, time, dt, choose_dt):
+        """Advance from `time` by dt [s]; choose_dt(speed) gives the length of the next step from the
+        largest nodal speed [m/s].  Returns that length.
+
+        USL (update stress last) takes the velocity gradient L from the new velocities of the nodes,
+        which makes F the gradient of the motion; its impulse is that of the next step.  USF (first)
+        takes L from the velocities at the start, MUSL (modified USL) from those of the updated
+        particles, mapped to the nodes once more."""
         self.sort_if_due()
-        clear(self.grid)
-        p2g(self.particles, self.grid, self.basis, self.transfer)
-        grid_update(self.grid, self.walls, self.gravity, dt)
+        if self.stress_update == "usf":
+            self.map_gradient()
+            self.update(dt, dt, velocity=False, move=False)
+        self.map_motion(time, dt)
         speed = sqrt(self.grid.speed_squared[None])
         dt_next = choose_dt(speed)
-        g2p(self.particles, self.grid, self.basis, self.transfer)
-        for group in self.particles.groups:
-            update_stress(self.particles, group, self.grid, self.transfer, dt, dt_next)
+        if self.stress_update == "usl":
+            self.update(dt, dt_next)
+        elif self.stress_update == "usf":
+            self.update(dt, dt_next, stress=False)
+        else:
+            self.update(dt, dt_next, stress=False, move=False)
+            self.map_gradient()
+            self.update(dt, dt_next, velocity=False)
         self.drift += dt * speed / self.grid.dx
         return dt_next
+
+    def map_motion(self, time, dt):
+        """Particles to nodes, the motion of the nodes, and back."""
+        if self.body_force is not None:
+            push(self.particles, self.grid, self.body_force, time, dt)
+        clear(self.grid)
+        p2g(self.particles, self.grid, self.basis, self.transfer)
+        fold_ghosts(self.grid, self.walls, self.gravity, dt)
+        grid_update(self.grid, self.walls, self.gravity, dt)
+        fill_ghosts(self.grid, self.walls, self.gravity)
+        g2p(self.particles, self.grid, self.basis, self.transfer)
+        if self.transfer.filtered:
+            take_residual(
+                self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
+                self.filter_order,
+            )  # fmt: skip
+
+    def map_gradient(self):
+        """L of the velocities that particles have now, as the nodes see them."""
+        clear(self.grid)
+        p2g(self.particles, self.grid, self.basis, self.transfer, "momentum")
+        fold_ghosts(self.grid, self.walls, self.gravity, 0.0)
+        grid_update(self.grid, self.walls, self.gravity, 0.0)
+        fill_ghosts(self.grid, self.walls, self.gravity)
+        g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")

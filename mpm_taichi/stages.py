@@ -16,9 +16,9 @@ def stage(function):
     GPU this is the time of the launch."""
 
     @functools.wraps(function)
-    def timed(*arguments):
+    def timed(*arguments, **options):
         start = time.perf_counter()
-        function(*arguments)
+        function(*arguments, **options)
         elapsed = time.perf_counter() - start
         name = function.__name__
         if name in first_calls:

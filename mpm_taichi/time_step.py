@@ -25,15 +25,16 @@ class Limit(NamedTuple):
     cause: str
 
 
-def limits(materials, basis, transfer, dx, gravity, speed) -> list[Limit]:
-    """All limits, shortest first.  `materials`: name -> material; speed [m/s] of the fastest."""
+def limits(materials, basis, transfer, dx, gravity, speed, half_width) -> list[Limit]:
+    """All limits, shortest first.  `materials`: name -> material; speed [m/s] of the fastest,
+    half_width [cells] of the smallest particle."""
     found = []
     for name, material in materials.items():
         c = material.wave_speed()
         found.append(
             Limit("acoustic", 0.9 * basis.bulk_limit * dx / (c + speed), f"material {name}")
         )
-        isolated = transfer.isolated_limit(basis)
+        isolated = transfer.isolated_limit(basis, half_width)
         if isolated is not None:
             stiffness = material.dilatation_modulus(len(gravity))
             seconds = isolated * dx * sqrt(material.density / stiffness)
@@ -46,10 +47,12 @@ def limits(materials, basis, transfer, dx, gravity, speed) -> list[Limit]:
 
 
 class TimeStep:
-    """Chooses the length of each step: as given, or `safety` times the shortest limit."""
+    """Chooses the length of each step: as given, or `safety` times the shortest limit.
 
-    def __init__(self, scene, given, safety):
-        self.scene, self.given, self.safety = scene, given, safety
+    half_width [cells]: of the smallest particle, which a basis may take as extended."""
+
+    def __init__(self, scene, given, safety, half_width=0.25):
+        self.scene, self.given, self.safety, self.half_width = scene, given, safety, half_width
         self.last = inf
         self.shortest, self.longest, self.too_long = inf, 0.0, 0
 
@@ -59,7 +62,7 @@ class TimeStep:
         used = {body.material: self.scene.materials[body.material] for body in self.scene.bodies}
         return limits(
             used, method.basis_class, method.transfer_class,
-            self.scene.cell_size, self.scene.gravity_vector, speed,
+            self.scene.cell_size, self.scene.gravity_vector, speed, self.half_width,
         )  # fmt: skip
 
     def choose(self, speed: float) -> float:
@@ -82,8 +85,8 @@ class TimeStep:
                 f"warning: time.step is {self.given / shortest.seconds:.3g} times the {binding}: "
                 "the run may blow up; `step: auto` chooses a stable one"
             )
-        method = self.scene.method
-        if self.given is None and method.transfer_class.isolated_limit(method.basis_class) is None:
+        method, isolated = self.scene.method, self.scene.method.transfer_class.isolated_limit
+        if self.given is None and isolated(method.basis_class, self.half_width) is None:
             lines.append(
                 f"the {method.basis} basis has no limit above zero for a lone particle: auto takes "
                 "that of a filled body"

@@ -5,13 +5,20 @@ import taichi as ti
 
 class Linear:
     """w = 1 - |r| for |r| < 1, continuous; its gradient jumps at the nodes, so a body under stress
-    that crosses cells makes noise.  Particles keep a in [0, 1)."""
+    that crosses cells makes noise.  D = f (1 - f) dx^2, f being the place in the cell, vanishes at
+    nodes.  Particles keep a in [0, 1)."""
 
     name = "linear"
     support = 2
+    extended = False
+    modified = False
     inverse_moment = None
-    steepness = None
+    moment_vanishes = True
     bulk_limit = 0.76
+
+    @staticmethod
+    def steepness(half):
+        return None
 
     @staticmethod
     @ti.func
@@ -20,10 +27,10 @@ class Linear:
 
     @staticmethod
     @ti.func
-    def weights(a):
+    def weights(a, half):
         return ti.Matrix.rows([1.0 - a, a])
 
     @staticmethod
     @ti.func
-    def slopes(a):
+    def slopes(a, half):
         return ti.Matrix.rows([0.0 * a - 1.0, 0.0 * a + 1.0])

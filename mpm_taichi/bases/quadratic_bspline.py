@@ -9,9 +9,15 @@ class QuadraticBSpline:
 
     name = "quadratic"
     support = 3
+    extended = False
+    modified = False
     inverse_moment = 4.0
-    steepness = 6.0
+    moment_vanishes = False
     bulk_limit = 1.03
+
+    @staticmethod
+    def steepness(half):
+        return 6.0
 
     @staticmethod
     @ti.func
@@ -20,10 +26,10 @@ class QuadraticBSpline:
 
     @staticmethod
     @ti.func
-    def weights(a):
+    def weights(a, half):
         return ti.Matrix.rows([0.5 * (1.5 - a) ** 2, 0.75 - (a - 1.0) ** 2, 0.5 * (a - 0.5) ** 2])
 
     @staticmethod
     @ti.func
-    def slopes(a):
+    def slopes(a, half):
         return ti.Matrix.rows([a - 1.5, 2.0 - 2.0 * a, a - 0.5])

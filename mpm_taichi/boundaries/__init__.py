@@ -1,6 +1,12 @@
 """Rules for the velocity of a node at a wall with unit normal n, which points into the domain.
 
-A rule is a class with its word in a scene, `name`, and `velocity(v, n)` -> v [m/s]."""
+A rule is a class with
+
+- `name`            its word in a scene
+- `holds`           the wall also holds what moves along it
+- `lets_go`         material may leave the wall
+- `velocity(v, n)`  -> v [m/s]
+"""
 
 from typing import Literal, NamedTuple
 
@@ -9,7 +15,7 @@ from .slip import Slip
 from .sticky import Sticky
 
 RULES = (Sticky, Slip, Separate)
-RuleName = Literal["none", "sticky", "slip", "separate"]
+RuleName = Literal["none", "sticky", "slip", "separate", "periodic"]
 
 
 class Wall(NamedTuple):

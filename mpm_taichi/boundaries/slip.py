@@ -7,6 +7,8 @@ class Slip:
     """v <- v - (v . n) n."""
 
     name = "slip"
+    holds = False
+    lets_go = False
 
     @staticmethod
     @ti.func

@@ -7,6 +7,8 @@ class Sticky:
     """v = 0."""
 
     name = "sticky"
+    holds = True
+    lets_go = False
 
     @staticmethod
     @ti.func

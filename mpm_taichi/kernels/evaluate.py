@@ -5,15 +5,16 @@ import taichi as ti
 
 from ..runtime import Array, Template
 from .rows import columns, vector
+from .stencil import moment, weigh
 from .update_stress import load_state
 
 
 @ti.kernel
 def evaluate_particles(
-    particles: Template, group: Template, grid: Template, begin: int, end: int,
-    table: Array,
+    particles: Template, group: Template, grid: Template, basis: Template,
+    begin: int, end: int, table: Array,
 ):  # fmt: skip
-    """Row id of the table: x, v, H, tau, A, psi, tau_zz."""
+    """Row id of the table: x, v, D, H, tau, A, psi, tau_zz."""
     dim = ti.static(grid.dim)
     matrix = ti.static(dim * dim)
     for p in range(begin, end):
@@ -22,30 +23,34 @@ def evaluate_particles(
         v = vector(particles.rows, p, 0, dim) / particles.m[p]
         A = columns(particles.rows, p, particles.layout.affine, dim) * g.inv_dx
         still = ti.Matrix.zero(float, dim, dim)
+        base, a, w, dw = weigh(p, particles, grid, basis)
+        D = moment(w, a)
         H_same, s, tau = group.law.update(c, H, still, 0.0, load_state(group, p - begin))
         for d in ti.static(range(dim)):
             table[id, d] = x[d]
             table[id, dim + d] = v[d]
+            table[id, 2 * dim + d] = D[d]
             for e in ti.static(range(dim)):
-                at = ti.static(2 * dim + d * dim + e)
+                at = ti.static(3 * dim + d * dim + e)
                 table[id, at] = H_same[d, e]
                 table[id, at + matrix] = tau[d, e]
                 table[id, at + 2 * matrix] = A[d, e]
-        last = ti.static(2 * dim + 3 * matrix)
+        last = ti.static(3 * dim + 3 * matrix)
         table[id, last] = group.law.energy_density(c, H_same, s)
         if ti.static(dim == 2):
             table[id, last + 1] = group.law.out_of_plane_stress(c, H_same, s)
 
 
-def evaluate(particles, grid):
-    """x [m], v [m/s] [n, dim]; H, tau (Kirchhoff stress, Pa), A (affine momentum, kg/s) [n, dim,
-    dim]; psi (elastic energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
+def evaluate(particles, grid, basis):
+    """x [m], v [m/s], D (moment of each axis, dx^2) [n, dim]; H, tau (Kirchhoff stress, Pa), A
+    (affine momentum, kg/s) [n, dim, dim]; psi (elastic energy per reference volume, J/m^3) and, in
+    plane strain, tau_zz [n]."""
     n, dim = particles.count, grid.dim
-    table = np.zeros((n, 2 * dim + 3 * dim**2 + 2), particles.dtype)
+    table = np.zeros((n, 3 * dim + 3 * dim**2 + 2), particles.dtype)
     for group in particles.groups:
-        evaluate_particles(particles, group, grid, group.begin, group.end, table)
-    vectors = {"x": 0, "v": dim}
-    matrices = {"H": 2 * dim, "tau": 2 * dim + dim**2, "A": 2 * dim + 2 * dim**2}
+        evaluate_particles(particles, group, grid, basis, group.begin, group.end, table)
+    vectors = {"x": 0, "v": dim, "D": 2 * dim}
+    matrices = {"H": 3 * dim, "tau": 3 * dim + dim**2, "A": 3 * dim + 2 * dim**2}
     scalars = {"psi": -2, "tau_zz": -1}
     table = table.astype(float)
     return (

@@ -5,7 +5,7 @@ import taichi as ti
 from ..runtime import Template
 from ..stages import stage
 from .blocks import BLOCK, first_block
-from .stencil import grid_coordinate, index, line_slope, line_weight, offset
+from .stencil import index, line_slope, line_weight, moment, offset, weigh
 
 
 @ti.func
@@ -37,38 +37,47 @@ def gather(first, grid: Template, w, dw, v: Template, B: Template, S: Template):
 
 
 @ti.func
-def gather_particle(p, particles: Template, grid: Template, basis: Template, transfer: Template):
-    xi = grid_coordinate(particles.x[p], grid)
-    base = basis.first(xi)
-    a = xi - base
-    w, dw = basis.weights(a), basis.slopes(a)
+def gather_particle(
+    p, particles: Template, grid: Template, basis: Template, transfer: Template, what: Template
+):
+    base, a, w, dw = weigh(p, particles, grid, basis)
     first = index(grid, base)
     zero = ti.Vector.zero(float, 4)
     v, dv = zero, zero
-    B = [zero for row in particles.layout.affine]
+    if ti.static(what == "residual"):
+        gather(first + grid.apart, grid, w, dw, v, [], [])
+        row = ti.static(particles.layout.residual)
+        particles.rows[p, row] = particles.rows[p, row] - particles.m[p] * v
+        return
+    B = [zero for row in particles.layout.moments if what == "all"]
     S = [zero for row in particles.layout.gradient]
     gather(first, grid, w, dw, v, B, S)
     # Rows in the order of memory: then the stores pack into lanes.
-    if ti.static(transfer.increment):
-        gather(first + grid.apart, grid, w, dw, dv, [], [])
-        particles.rows[p, 0] = particles.rows[p, 0] + particles.m[p] * dv
-    else:
-        particles.rows[p, 0] = v
-    for d, row in ti.static(enumerate(particles.layout.affine)):
-        particles.rows[p, row] = B[d] - a[d] * v
+    if ti.static(what == "all"):
+        if ti.static(transfer.increment):
+            gather(first + grid.apart, grid, w, dw, dv, [], [])
+            particles.rows[p, 0] = particles.rows[p, 0] + particles.m[p] * dv
+        else:
+            particles.rows[p, 0] = v
+        for d, row in ti.static(enumerate(particles.layout.moments)):
+            B_d = B[d] - a[d] * v
+            if ti.static(not basis.inverse_moment):
+                B_d /= moment(w, a)[d]
+            particles.rows[p, row] = B_d
     for d, row in ti.static(enumerate(particles.layout.gradient)):
         particles.rows[p, row] = S[d]
-    if ti.static(transfer.increment):
+    if ti.static(what == "all" and particles.layout.pic):
         particles.rows[p, particles.layout.pic] = v
 
 
 @ti.kernel
 def gather_particles(
-    particles: Template, grid: Template, basis: Template, transfer: Template, threads: int
-):
+    particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
+    threads: int,
+):  # fmt: skip
     if ti.static(grid.atomic):
         for p in range(particles.count):
-            gather_particle(p, particles, grid, basis, transfer)
+            gather_particle(p, particles, grid, basis, transfer, what)
     else:
         for counter in range(512 * threads):
             if counter % 512 == 0:
@@ -77,14 +86,15 @@ def gather_particles(
                 for block in range(first_block(worker, threads, particles.count), last):
                     start = block * BLOCK
                     for p in range(start, ti.min(start + BLOCK, particles.count)):
-                        gather_particle(p, particles, grid, basis, transfer)
+                        gather_particle(p, particles, grid, basis, transfer, what)
 
 
 @stage
-def g2p(particles, grid, basis, transfer):
+def g2p(particles, grid, basis, transfer, what="all"):
     """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
-    with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).
+    with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all"
+    or for the "gradient" S_p; or it is the "residual" of a filter, R_p -= sum_i w_ip R_i.
 
     On return the rows hold what was gathered (see kernels/rows.py); x, H and the state are as
     before."""
-    gather_particles(particles, grid, basis, transfer, grid.threads)
+    gather_particles(particles, grid, basis, transfer, what, grid.threads)

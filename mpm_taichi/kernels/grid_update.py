@@ -9,14 +9,14 @@ from .blocks import BLOCK, first_block
 
 @ti.func
 def apply_walls(v, i, grid: Template, walls: Template):
-    """The rule of each wall acts at its nodes and at the ghost nodes behind it."""
+    """The rule of each wall acts at its nodes; those behind it are images (kernels/ghosts.py)."""
     for wall in ti.static(walls):
         i_d = i // grid.strides[wall.axis] % grid.extent[wall.axis] - grid.ghost
         n = ti.Vector.unit(grid.dim, wall.axis, float)
         if ti.static(wall.upper):
-            if i_d >= grid.cells[wall.axis]:
+            if i_d == grid.cells[wall.axis]:
                 v = wall.rule.velocity(v, -n)
-        elif i_d <= 0:
+        elif i_d == 0:
             v = wall.rule.velocity(v, n)
     return v
 

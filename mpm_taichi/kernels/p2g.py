@@ -4,7 +4,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .stencil import grid_coordinate, index, line_slope, line_weight, offset
+from .stencil import index, line_slope, line_weight, offset, weigh
 
 
 @ti.func
@@ -45,23 +45,30 @@ def scatter(first, grid: Template, w, dw, q, A: Template, T: Template):
 
 
 @ti.func
-def scatter_particle(p, particles: Template, grid: Template, basis: Template, transfer: Template):
-    xi = grid_coordinate(particles.x[p], grid)
-    base = basis.first(xi)
-    a = xi - base
-    w, dw = basis.weights(a), basis.slopes(a)
+def scatter_particle(
+    p, particles: Template, grid: Template, basis: Template, transfer: Template, what: Template
+):
+    base, a, w, dw = weigh(p, particles, grid, basis)
     first = index(grid, base)
-    q = particles.rows[p, 0]
-    A = [particles.rows[p, row] for row in particles.layout.affine]
-    T = [particles.rows[p, row] for row in particles.layout.gradient]
-    if ti.static(A):
-        for d in ti.static(range(grid.dim)):
-            q -= A[d] * a[d]
-    if ti.static(transfer.increment):
-        scatter(first, grid, w, dw, q, A, [])
-        scatter(first + grid.apart, grid, w, dw, 0.0 * q, [], T)
+    if ti.static(what == "residual"):
+        R = particles.rows[p, particles.layout.residual]
+        scatter(first + grid.apart, grid, w, dw, R, [], [])
     else:
-        scatter(first, grid, w, dw, q, A, T)
+        q = particles.rows[p, 0]
+        force = 0.0 * q
+        if ti.static(what == "all" and particles.layout.force):
+            force = particles.rows[p, particles.layout.force]
+        A = [particles.rows[p, row] for row in particles.layout.affine]
+        T = [particles.rows[p, row] for row in particles.layout.gradient if what == "all"]
+        if ti.static(A):
+            for d in ti.static(range(grid.dim)):
+                q -= A[d] * a[d]
+        if ti.static(not transfer.increment):
+            scatter(first, grid, w, dw, q + force, A, T)
+        else:
+            scatter(first, grid, w, dw, q, A, [])
+            if ti.static(what == "all"):
+                scatter(first + grid.apart, grid, w, dw, force, [], T)
 
 
 @ti.kernel
@@ -70,13 +77,14 @@ def scatter_particles(
     grid: Template,
     basis: Template,
     transfer: Template,
+    what: Template,
     color: int,
     threads: int,
 ):
     """On a CPU the slabs of one color, which share no node: each worker takes whole slabs."""
     if ti.static(grid.atomic):
         for p in range(particles.count):
-            scatter_particle(p, particles, grid, basis, transfer)
+            scatter_particle(p, particles, grid, basis, transfer, what)
     else:
         for counter in range(512 * threads):
             if counter % 512 == 0:
@@ -86,15 +94,17 @@ def scatter_particles(
                     if ti.min(int(grid.share[slab] * threads), threads - 1) == counter // 512:
                         for g in range(particles.group_count):
                             for p in range(grid.start[g, slab], grid.start[g, slab + 1]):
-                                scatter_particle(p, particles, grid, basis, transfer)
+                                scatter_particle(p, particles, grid, basis, transfer, what)
 
 
 @stage
-def p2g(particles, grid, basis, transfer):
-    """m_i = sum_p w_ip m_p and (m v)_i = sum_p w_ip (m_p v_p + A_p (x_i - x_p)) + T_p grad w_ip.
+def p2g(particles, grid, basis, transfer, what="all"):
+    """m_i = sum_p w_ip m_p and (m v)_i = sum_p w_ip (m_p v_p + A_p (x_i - x_p)), and the impulse of
+    stress and body force, sum_p T_p grad w_ip + w_ip dt m_p b_p.  Of these `what` asks for "all" or
+    for mass and "momentum"; or it is the "residual" of a filter, sum_p w_ip m_p R_p.
 
-    On return a node holds (momentum and impulse of the stress [kg m/s], mass [kg]); with
-    `transfer.increment` the impulse is in the record apart."""
-    scatter_particles(particles, grid, basis, transfer, 0, grid.threads)
+    On return a node holds (momentum and impulse [kg m/s], mass [kg]); with `transfer.increment` the
+    impulse is in the record apart, and so is the residual."""
+    scatter_particles(particles, grid, basis, transfer, what, 0, grid.threads)
     if not grid.atomic:
-        scatter_particles(particles, grid, basis, transfer, 1, grid.threads)
+        scatter_particles(particles, grid, basis, transfer, what, 1, grid.threads)

@@ -6,6 +6,9 @@ Lengths in rows are in cells.  Row 0 and the rows of the layout change meaning t
   scattered   (m v, m)  columns of A dx      columns of T/dx   -
   gathered    (v, .)    moments B / dx       sums v dw dx      -
   with an increment: row 0 stays (m v, m), and         v before the increment, sum_i w_i v_i
+
+Where D varies, the moments are divided by it when they are gathered.  `layout.residual` holds
+(m R, 0) of a filtered transfer, `layout.force` the impulse (dt m b, 0) of a body force.
 """
 
 import taichi as ti
@@ -14,14 +17,23 @@ from ..runtime import Template
 
 
 class RowLayout:
-    """Which rows a transfer has, in `dim` dimensions."""
+    """Which rows a transfer has, in `dim` dimensions; `keeps_pic`: sum_i w_i v_i outlives the new
+    velocity, `force`: there is a body force."""
 
-    def __init__(self, transfer, dim: int):
+    def __init__(self, transfer, dim: int, keeps_pic: bool, force: bool):
         affine, gradient = dim * transfer.affine, dim * transfer.gradient
         self.affine = range(1, 1 + affine)
+        self.moments = self.affine if transfer.moments else range(0)
         self.gradient = range(1 + affine, 1 + affine + gradient)
-        self.pic = 1 + affine + gradient if transfer.increment else 0
-        self.count = 1 + affine + gradient + transfer.increment
+        self.count = 1 + affine + gradient
+        self.pic = self._one_more(transfer.increment or keeps_pic)
+        self.residual = self._one_more(transfer.filtered)
+        self.force = self._one_more(force)
+
+    def _one_more(self, wanted: bool) -> int:
+        """The number of the next row, 0 if there is none."""
+        self.count += wanted
+        return self.count - 1 if wanted else 0
 
 
 @ti.func
@@ -48,10 +60,10 @@ def put_columns(rows: Template, p, at: Template, M):
 
 
 @ti.func
-def put_momentum(rows: Template, p, m, v):
-    """Row 0 = (m v, m)."""
+def put_vector(rows: Template, p, row: Template, v, last):
+    """A row = (v, last)."""
     lanes = ti.Vector.zero(float, 4)
     for e in ti.static(range(v.n)):
-        lanes[e] = m * v[e]
-    lanes[v.n] = m
-    rows[p, 0] = lanes
+        lanes[e] = v[e]
+    lanes[v.n] = last
+    rows[p, row] = lanes

@@ -4,12 +4,12 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .stencil import grid_coordinate, index
+from .stencil import first_node, index
 
 
 @ti.func
 def cell(p, particles: Template, grid: Template, basis: Template):
-    return index(grid, basis.first(grid_coordinate(particles.x[p], grid)))
+    return index(grid, first_node(particles.x[p], grid, basis))
 
 
 @ti.kernel
@@ -69,8 +69,12 @@ def plan(particles: Template, grid: Template):
                 inside += grid.start[g, slab + 1] - grid.start[g, slab]
             grid.share[slab] = (before + 0.5 * inside) / particles.count
             before += inside
-            if inside > 0:  # a cell of drift to the left; drift and the stencil to the right
-                left, right = slab * grid.slab - 1, (slab + 2) * grid.slab
+            if (
+                inside > 0
+            ):  # drift and mirror images to the left; drift and the stencil to the right
+                left, right = slab * grid.slab - grid.ghost, (slab + 2) * grid.slab
+                if ti.static(0 in grid.periodic):
+                    left, right = 0, grid.extent[0]
                 grid.active[0] = ti.min(grid.active[0], ti.max(left, 0) * grid.strides[0])
                 grid.active[1] = ti.min(right * grid.strides[0], grid.nodes)
 

@@ -30,6 +30,57 @@ def grid_coordinate(x, grid: Template):
 
 
 @ti.func
+def bend_at_walls(w: Template, base, grid: Template, basis: Template):
+    """The weights (or slopes) w of a node behind a wall go to the two nodes before it, as if
+    v_-1 = 2 v_0 - v_1 (bases/quadratic_boundary.py)."""
+    last = ti.static(basis.support - 1)
+    for axis, upper in ti.static(grid.walled):
+        behind, wall, before = ti.static((last, last - 1, last - 2) if upper else (0, 1, 2))
+        edge = ti.static(grid.ghost + (grid.cells[axis] + 1 - last if upper else -1))
+        if base[axis] == edge:
+            w[wall, axis] += 2.0 * w[behind, axis]
+            w[before, axis] -= w[behind, axis]
+            w[behind, axis] = 0.0
+
+
+@ti.func
+def first_node(x, grid: Template, basis: Template):
+    """First node of the stencil of a particle at x, a multi-index; with a modified basis it has at
+    most one node behind a wall."""
+    base = basis.first(grid_coordinate(x, grid))
+    if ti.static(basis.modified):
+        for axis, upper in ti.static(grid.walled):
+            if ti.static(upper):
+                base[axis] = ti.min(base[axis], grid.ghost + grid.cells[axis] + 2 - basis.support)
+    return base
+
+
+@ti.func
+def weigh(p, particles: Template, grid: Template, basis: Template):
+    """First node of the stencil of particle p, a = xi - that node, weights and slopes w, dw[k, d]."""
+    base = first_node(particles.x[p], grid, basis)
+    a = grid_coordinate(particles.x[p], grid) - base
+    half = 0.0
+    if ti.static(basis.extended):
+        half = particles.half_width[p]
+    w, dw = basis.weights(a, half), basis.slopes(a, half)
+    if ti.static(basis.modified):
+        bend_at_walls(w, base, grid, basis)
+        bend_at_walls(dw, base, grid, basis)
+    return base, a, w, dw
+
+
+@ti.func
+def moment(w, a):
+    """D of each axis, sum_k w_k (k - a)^2 [dx^2]."""
+    D = 0.0 * a
+    for k in ti.static(range(w.n)):
+        for d in ti.static(range(w.m)):
+            D[d] += w[k, d] * (k - a[d]) ** 2
+    return D
+
+
+@ti.func
 def line_weight(w, lead: Template):
     """Product of the weights of the leading axes."""
     weight = 1.0

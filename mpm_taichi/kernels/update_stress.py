@@ -5,7 +5,7 @@ import taichi as ti
 from ..runtime import Template
 from ..stages import stage
 from .blocks import BLOCK, first_block
-from .rows import columns, put_columns, put_momentum, vector
+from .rows import columns, put_columns, put_vector, vector
 
 
 @ti.func
@@ -18,44 +18,66 @@ def load_state(group: Template, i):
 
 
 @ti.func
+def note_if_lost(p, x, particles: Template, grid: Template):
+    inside = True
+    for d in ti.static(range(grid.dim)):
+        if ti.static(d not in grid.periodic):
+            inside = inside and x[d] >= 0.0 and x[d] <= grid.constants[None].size[d]
+    if not inside:
+        ti.atomic_min(particles.lost[None], particles.id[p])
+
+
+@ti.func
 def update_particle(
     p, particles: Template, group: Template, grid: Template, transfer: Template,
-    begin, dt, dt_next,
+    begin, dt, dt_next, alpha, velocity: Template, stress: Template, move: Template,
 ):  # fmt: skip
     dim = ti.static(grid.dim)
-    c, g = group.constants[None], grid.constants[None]
-    m, V0 = particles.m[p], particles.V0[p]
+    g = grid.constants[None]
+    m = particles.m[p]
     v_pic = vector(particles.rows, p, particles.layout.pic, dim)
-    v = transfer.velocity(vector(particles.rows, p, 0, dim) / m, v_pic)
-    B = columns(particles.rows, p, particles.layout.affine, dim) * g.dx
-    S = columns(particles.rows, p, particles.layout.gradient, dim) * g.inv_dx
-    C, L = transfer.gradients(B, S, g.inverse_moment)
-    H = particles.H[p]
-    H_new, s, tau = group.law.update(c, H + dt * (L + L @ H), L, dt, load_state(group, p - begin))
-    particles.H[p] = H_new
-    if ti.static(group.has_state):
-        group.state[p - begin] = s
-    T = (-dt_next * V0) * tau
-    put_momentum(particles.rows, p, m, v)
-    if ti.static(transfer.affine):
-        # A dx: linear in m and D^-1, and two numbers are cheaper to scale than a matrix
-        A_dx = transfer.affine_momentum(m * g.dx, C, T, g.inverse_moment * g.dx)
-        put_columns(particles.rows, p, particles.layout.affine, A_dx)
-    put_columns(particles.rows, p, particles.layout.gradient, T * g.inv_dx)
-    x = particles.x[p] + dt * v_pic
-    particles.x[p] = x
-    if not ((x >= 0.0).all() and (x <= g.size).all()):
-        ti.atomic_min(particles.lost[None], particles.id[p])
+    v = vector(particles.rows, p, 0, dim) / m
+    L = columns(particles.rows, p, particles.layout.gradient, dim) * g.inv_dx
+    C, T = 0.0 * L, 0.0 * L
+    if ti.static(velocity):
+        v = transfer.velocity(v, v_pic, alpha)
+        B = columns(particles.rows, p, particles.layout.moments, dim) * g.dx
+        C, L = transfer.gradients(B, L, g.inverse_moment)
+    if ti.static(stress):
+        H = particles.H[p]
+        H_new, s, tau = group.law.update(
+            group.constants[None], H + dt * (L + L @ H), L, dt, load_state(group, p - begin)
+        )
+        particles.H[p] = H_new
+        if ti.static(group.has_state):
+            group.state[p - begin] = s
+        T = (-dt_next * particles.V0[p]) * tau
+    if ti.static(velocity):
+        put_vector(particles.rows, p, 0, m * v, m)
+        if ti.static(transfer.affine):
+            # A dx: linear in m and D^-1, and two numbers are cheaper to scale than a matrix
+            A_dx = transfer.affine_momentum(m * g.dx, C, T, g.inverse_moment * g.dx)
+            put_columns(particles.rows, p, particles.layout.affine, A_dx)
+    if ti.static(stress):
+        put_columns(particles.rows, p, particles.layout.gradient, T * g.inv_dx)
+    if ti.static(move):
+        x = particles.x[p] + dt * v_pic
+        particles.x[p] = x
+        note_if_lost(p, x, particles, grid)
 
 
 @ti.kernel
 def update_particles(
     particles: Template, group: Template, grid: Template, transfer: Template,
-    begin: int, end: int, dt: float, dt_next: float, threads: int,
+    begin: int, end: int, dt: float, dt_next: float, alpha: float,
+    velocity: Template, stress: Template, move: Template, threads: int,
 ):  # fmt: skip
     if ti.static(grid.atomic):
         for p in range(begin, end):
-            update_particle(p, particles, group, grid, transfer, begin, dt, dt_next)
+            update_particle(
+                p, particles, group, grid, transfer, begin, dt, dt_next, alpha,
+                velocity, stress, move,
+            )  # fmt: skip
     else:
         for counter in range(512 * threads):
             if counter % 512 == 0:
@@ -64,16 +86,24 @@ def update_particles(
                 for block in range(first_block(worker, threads, end - begin), last):
                     start = begin + block * BLOCK
                     for p in range(start, ti.min(start + BLOCK, end)):
-                        update_particle(p, particles, group, grid, transfer, begin, dt, dt_next)
+                        update_particle(
+                            p, particles, group, grid, transfer, begin, dt, dt_next, alpha,
+                            velocity, stress, move,
+                        )  # fmt: skip
 
 
 @stage
-def update_stress(particles, group, grid, transfer, dt, dt_next):
-    """H <- H + dt L (I + H), stress and state by the law, x <- x + dt sum_i w_ip v_i.
+def update_stress(
+    particles, group, grid, transfer, dt, dt_next, alpha=1.0, velocity=True, stress=True, move=True
+):
+    """Velocity and affine momentum from what was gathered, alpha being the FLIP part of a blend;
+    H <- H + dt L (I + H), stress and state by the law; x <- x + dt sum_i w_ip v_i.  Stress orders
+    other than USL ask for these at different times.
 
     On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
     has left the closed domain, or the number of particles."""
     update_particles(
-        particles, group, grid, transfer, group.begin, group.end, dt, dt_next, grid.threads
-    )
+        particles, group, grid, transfer, group.begin, group.end, dt, dt_next, alpha,
+        velocity, stress, move, grid.threads,
+    )  # fmt: skip

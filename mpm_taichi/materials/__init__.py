@@ -4,6 +4,7 @@ A material is a frozen model (what a scene gives, with units) and device functio
 
 - `constants(cell_size)`  numbers that the device functions read as `c.name`
 - `state(dim)`            history variables, name -> value at the start (empty: the law has none)
+- `start(H)`              its values [n, ...] for particles that start with H [n, dim, dim]
 - `wave_speed()`          of pressure waves in the undeformed material [m/s]
 - `dilatation_modulus(dim)`  M_d = dim lam + 2 mu [Pa], of a lone particle's time-step limit
 - `update(c, H, L, dt, s)`  -> H, s, tau [Pa], with H = F - I already advanced by dt, L the velocity

@@ -2,6 +2,7 @@
 
 from math import sqrt
 
+import numpy as np
 from pydantic import Field
 
 from ..model import Model, Positive
@@ -21,6 +22,13 @@ class Elastic(Model):
 
     def state(self, dim: int) -> dict[str, list]:
         return {}
+
+    def start(self, H: np.ndarray) -> dict[str, np.ndarray]:
+        """The history variables of particles that start with H [n, dim, dim]."""
+        return {
+            name: np.broadcast_to(value, (len(H), *np.shape(value))).astype(float)
+            for name, value in self.state(H.shape[1]).items()
+        }
 
     def wave_speed(self) -> float:
         """sqrt((lam + 2 mu) / rho) [m/s]."""

@@ -2,6 +2,7 @@
 
 from typing import Literal
 
+import numpy as np
 import taichi as ti
 
 from .elastic import Elastic
@@ -19,6 +20,9 @@ class LinearElastic(Elastic):
     def state(self, dim: int) -> dict[str, list]:
         """The accumulated strain eps [-]."""
         return {"strain": [[0.0] * dim for _ in range(dim)]}
+
+    def start(self, H: np.ndarray) -> dict[str, np.ndarray]:
+        return {"strain": 0.5 * (H + H.swapaxes(1, 2))}
 
     @staticmethod
     @ti.func

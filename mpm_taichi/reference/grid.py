@@ -6,12 +6,17 @@ import numpy as np
 class Grid:
     """m [kg], mv [kg m/s], impulse [kg m/s], v_old and v [m/s] of node i at (i - ghost) dx."""
 
-    def __init__(self, cells, dx, basis, mass_cutoff):
+    def __init__(self, cells, dx, basis, mass_cutoff, walls, periodic):
         self.dim, self.cells, self.dx = len(cells), tuple(cells), dx
         self.ghost = basis.support
-        self.inverse_moment = (basis.inverse_moment or 0.0) / dx**2
+        self.periodic = tuple(periodic)
+        self.walled = tuple((wall.axis, wall.upper) for wall in walls)
+        mirrors = basis.support > 2 and not basis.modified
+        self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
+        self.inverse_moment = (basis.inverse_moment or 1.0) / dx**2
         self.mass_cutoff = mass_cutoff
         self.shape = tuple(n + 1 + 2 * self.ghost for n in cells)
         self.m = np.zeros(self.shape)
         self.mv, self.impulse, self.v_old, self.v = np.zeros((4, *self.shape, self.dim))
+        self.residual = np.zeros_like(self.mv)
         self.speed_squared, self.cut = 0.0, 0

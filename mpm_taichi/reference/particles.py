@@ -8,17 +8,22 @@ from . import materials
 
 
 class Particles:
-    """x [m], v [m/s], C [1/s], H = F - I, m [kg], V0 [m^dim]; T = - dt V0 tau [kg m^2/s^2] and
-    A [kg/s], what the next P2G scatters; v_pic, dv, B, S, what the last G2P gathered."""
+    """x [m], v [m/s], C [1/s], H = F - I, m [kg], V0 [m^dim], X [m]; T = - dt V0 tau [kg m^2/s^2], A
+    [kg/s] and the impulse force [kg m/s], what the next P2G scatters; v_pic, dv, B, S, what the last
+    G2P gathered; R, the residual velocity of a filter."""
 
-    def __init__(self, bodies, transfer, dx):
+    def __init__(self, bodies, basis, transfer, dx):
         self.x = np.concatenate([body.x for body in bodies])
+        self.X = np.concatenate([body.undeformed for body in bodies])
         self.v = np.concatenate([body.v for body in bodies])
         self.V0 = np.concatenate([body.V0 for body in bodies])
         self.m = np.concatenate([body.material.density * body.V0 for body in bodies])
+        self.H = np.concatenate([body.displacement_gradient for body in bodies])
         self.count, self.dim = self.x.shape
-        self.H, self.A, self.T, self.B, self.S = np.zeros((5, self.count, self.dim, self.dim))
-        self.v_pic, self.dv = self.v.copy(), np.zeros_like(self.v)
+        self.half_width = 0.5 * self.V0 ** (1 / self.dim) / dx
+        self.A, self.T, self.B, self.S = np.zeros((4, self.count, self.dim, self.dim))
+        self.v_pic = self.v.copy()
+        self.dv, self.force, self.R = np.zeros((3, self.count, self.dim))
         self.lost = self.count
         self.groups = []
         kind = np.repeat(range(len(bodies)), [len(body.x) for body in bodies])
@@ -26,7 +31,10 @@ class Particles:
             mine = [number for number, body in enumerate(bodies) if body.material == material]
             law = getattr(materials, type(material).__name__)
             members = np.flatnonzero(np.isin(kind, mine))
-            start = {name: np.array(value) for name, value in material.state(self.dim).items()}
-            state = {p: SimpleNamespace(**{n: a.copy() for n, a in start.items()}) for p in members}
+            start = material.start(self.H[members])
+            state = {
+                p: SimpleNamespace(**{name: start[name][k].copy() for name in start})
+                for k, p in enumerate(members)
+            }
             c = SimpleNamespace(**material.constants(dx))
             self.groups.append(SimpleNamespace(law=law, constants=c, members=members, state=state))

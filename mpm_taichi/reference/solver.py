@@ -5,45 +5,94 @@ from math import sqrt
 import numpy as np
 
 from .grid import Grid
+from .kernels.body_force import push
 from .kernels.clear import clear
 from .kernels.g2p import g2p
+from .kernels.ghosts import fill_ghosts, fold_ghosts
 from .kernels.grid_update import grid_update
 from .kernels.p2g import p2g
+from .kernels.residual import take_residual
 from .kernels.update_stress import update_stress
+from .kernels.wrap import wrap
 from .particles import Particles
 
 
 class Solver:
-    """Bodies in a box of `cells` cells of edge `dx` [m], stress updated last (USL)."""
+    """Bodies in a box of `cells` cells of edge `dx` [m]; see mpm_taichi/solver.py."""
 
-    def __init__(self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None):
+    def __init__(
+        self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
+        stress_update="usl", flip_part=None, filter_order=1, body_force=None,
+    ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
-        self.particles = Particles(bodies, transfer, dx)
-        self.grid = Grid(cells, dx, basis, self._mass_cutoff(mass_cutoff, bodies, cells))
+        self.stress_update, self.body_force = stress_update, body_force
+        self.flip_part, self.filter_order = flip_part or (lambda dt: 1.0), filter_order
+        self.particles = Particles(bodies, basis, transfer, dx)
+        self.grid = Grid(
+            cells, dx, basis, self._mass_cutoff(mass_cutoff, bodies, cells, dx), walls, periodic
+        )
         self.gravity = np.array(gravity, float)
 
-    def _mass_cutoff(self, part, bodies, cells):
+    def _mass_cutoff(self, part, bodies, cells, dx):
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight
         where gradients do not vanish with the weight."""
         if part is None:
-            smooth = self.basis.steepness is not None
+            smooth = self.basis.steepness(0.25) is not None
             part = 0.0 if smooth else 16 * np.finfo(float).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
 
     def start(self, dt):
         """Write the impulse of the first step, of length dt [s]."""
-        for group in self.particles.groups:
-            update_stress(self.particles, group, self.grid, self.transfer, 0.0, dt)
+        self.update(0.0, dt)
 
-    def step(self, dt, choose_dt):
-        """Advance by dt [s]; returns the length of the next step, choose_dt(speed)."""
-        clear(self.grid)
-        p2g(self.particles, self.grid, self.basis, self.transfer)
-        grid_update(self.grid, self.walls, self.gravity, dt)
+    def update(self, dt, dt_next, **parts):
+        for group in self.particles.groups:
+            alpha = self.flip_part(dt)
+            update_stress(
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
+            )
+
+    def step(self, time, dt, choose_dt):
+        """Advance from `time` by dt [s]; returns the length of the next step, choose_dt(speed)."""
+        wrap(self.particles, self.grid)
+        if self.stress_update == "usf":
+            self.map_gradient()
+            self.update(dt, dt, velocity=False, move=False)
+        self.map_motion(time, dt)
         speed = sqrt(self.grid.speed_squared)
         dt_next = choose_dt(speed)
-        g2p(self.particles, self.grid, self.basis, self.transfer)
-        for group in self.particles.groups:
-            update_stress(self.particles, group, self.grid, self.transfer, dt, dt_next)
+        if self.stress_update == "usl":
+            self.update(dt, dt_next)
+        elif self.stress_update == "usf":
+            self.update(dt, dt_next, stress=False)
+        else:
+            self.update(dt, dt_next, stress=False, move=False)
+            self.map_gradient()
+            self.update(dt, dt_next, velocity=False)
         return dt_next
+
+    def map_motion(self, time, dt):
+        """Particles to nodes, the motion of the nodes, and back."""
+        if self.body_force is not None:
+            push(self.particles, self.grid, self.body_force, time, dt)
+        clear(self.grid)
+        p2g(self.particles, self.grid, self.basis, self.transfer)
+        fold_ghosts(self.grid, self.walls, self.gravity, dt)
+        grid_update(self.grid, self.walls, self.gravity, dt)
+        fill_ghosts(self.grid, self.walls, self.gravity)
+        g2p(self.particles, self.grid, self.basis, self.transfer)
+        if self.transfer.filtered:
+            take_residual(
+                self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
+                self.filter_order,
+            )  # fmt: skip
+
+    def map_gradient(self):
+        """L of the velocities that particles have now, as the nodes see them."""
+        clear(self.grid)
+        p2g(self.particles, self.grid, self.basis, self.transfer, "momentum")
+        fold_ghosts(self.grid, self.walls, self.gravity, 0.0)
+        grid_update(self.grid, self.walls, self.gravity, 0.0)
+        fill_ghosts(self.grid, self.walls, self.gravity)
+        g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")

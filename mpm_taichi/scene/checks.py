@@ -11,9 +11,10 @@ from sys import float_info
 from typing import Any
 
 from ..bases import BASES
+from ..expressions import Expressions
+from ..formulas import check_name, parse
 from ..meshes import MeshFile
 from ..model import Model
-from ..transfers import TRANSFERS
 from .wording import shown, suggestion
 
 Found = tuple[tuple[str | int, ...], str]
@@ -66,11 +67,22 @@ def walls(domain) -> Iterator[Found]:
             yield ("domain", "walls", side), f"a 2D domain has no {side}: only a 3D one has"
 
 
+def periodic(domain) -> Iterator[Found]:
+    """An axis closes on itself with both of its sides."""
+    for sides in (("left", "right"), ("bottom", "top"), ("back", "front")):
+        words = [getattr(domain.walls, side, "periodic") for side in sides]
+        if words.count("periodic") == 1:
+            open_side = sides[words.index(next(word for word in words if word != "periodic"))]
+            closed = sides[1 - sides.index(open_side)]
+            text = f"must be periodic too, as {closed} is: both are sides of one axis"
+            yield ("domain", "walls", open_side), text
+
+
 def support(domain, method) -> Iterator[Found]:
     """The stencil of a particle fits into the domain."""
     basis = method.basis_class
     for axis, count in enumerate(domain.cells):
-        if count < basis.support:
+        if count < basis.support and axis not in domain.periodic:
             yield (
                 ("domain", "cells", axis),
                 f"must be at least {basis.support}, the nodes per axis that the {basis.name} basis "
@@ -79,16 +91,42 @@ def support(domain, method) -> Iterator[Found]:
 
 
 def moment(method) -> Iterator[Found]:
-    """Transfers that gather affine moments divide by a moment that must be constant."""
-    basis = method.basis_class
-    if method.transfer_class.affine and basis.inverse_moment is None:
-        plain = [transfer.__name__.lower() for transfer in TRANSFERS if not transfer.affine]
+    """Transfers that gather affine moments divide by them: APIC by that of each particle, its MLS
+    form by one that must be constant."""
+    basis, transfer = method.basis_class, method.transfer_class
+    if not transfer.moments:
+        return
+    if basis.moment_vanishes:
+        bases = [basis.name for basis in BASES if not basis.moment_vanishes]
+        yield (
+            ("method", "transfer"),
+            f"apic divides by the moment of the weights, and that of the {basis.name} basis has "
+            f"zeros: take transfer tpic, flip, xpic or pic, or basis {', '.join(bases)}",
+        )
+    elif not transfer.gradient and basis.inverse_moment is None:
         bases = [basis.name for basis in BASES if basis.inverse_moment is not None]
         yield (
             ("method", "transfer"),
-            f"{method.transfer.type} needs a basis whose moment is constant, and that of the "
-            f"{basis.name} basis is not: take transfer {' or '.join(plain)}, or basis "
-            f"{' or '.join(bases)}",
+            f"the force in its mls form needs a basis whose moment is constant, and that of the "
+            f"{basis.name} basis is not: take force: gradient, or basis {' or '.join(bases)}",
+        )
+
+
+def blend(method) -> Iterator[Found]:
+    """One way to say how much PIC there is in FLIP."""
+    if getattr(method.transfer, "ratio", None) is not None:
+        if method.transfer.relaxation_time is not None:
+            text = "must not be given with relaxation_time: each says how much PIC is blended in"
+            yield ("method", "transfer", "ratio"), text
+
+
+def stress_update(method) -> Iterator[Found]:
+    """The force in its MLS form scatters stress and velocity as one, so it knows USL alone."""
+    if method.stress_update != "usl" and not method.transfer_class.gradient:
+        yield (
+            ("method", "stress_update"),
+            f"{method.stress_update} needs the force along grad w: take transfer "
+            "{type: apic, force: gradient} or another, or stress_update: usl",
         )
 
 
@@ -169,7 +207,7 @@ def _vectors(place: tuple, value) -> Iterator[tuple[tuple, list]]:
     if isinstance(value, Model):
         for name, member in value:
             yield from _vectors((*place, name), member)
-    elif isinstance(value, list) and all(isinstance(entry, float | int) for entry in value):
+    elif isinstance(value, list) and all(isinstance(entry, float | int | str) for entry in value):
         yield place, value
     elif isinstance(value, list):
         for number, entry in enumerate(value):
@@ -191,6 +229,64 @@ def inside(domain, bodies) -> Iterator[Found]:
             yield ("bodies", number, "shape"), f"leaves the domain: {' and '.join(beyond)}"
 
 
+def definitions(domain, definitions) -> Iterator[Found]:
+    """Each formula by itself, with the names before it."""
+    known = {}
+    for name, formula in definitions.items():
+        try:
+            check_name(name)
+            known[name] = parse(formula, domain.dimension, known)
+        except ValueError as error:
+            yield ("definitions", name), str(error)
+            return
+
+
+def formulas(domain, definitions, bodies) -> Iterator[Found]:
+    for number, body in bodies.items():
+        for key in ("velocity", "displacement"):
+            place = ("bodies", number, key)
+            yield from _unusable(place, getattr(body, key), domain, definitions, "XYZ")
+
+
+def body_force(domain, definitions, body_force) -> Iterator[Found]:
+    yield from _unusable(("body_force",), body_force, domain, definitions, "XYZxyzt")
+    if body_force is not None and len(body_force) != domain.dimension:
+        yield ("body_force",), _wrong_length(body_force, domain)
+
+
+def exact(domain, definitions, exact) -> Iterator[Found]:
+    if exact is None:
+        return
+    for key in ("displacement", "velocity"):
+        entries = getattr(exact, key)
+        yield from _unusable(("exact", key), entries, domain, definitions, "XYZt")
+        if entries is not None and len(entries) != domain.dimension:
+            yield ("exact", key), _wrong_length(entries, domain)
+    yield from _unusable(("exact", "stress"), exact.stress, domain, definitions, "XYZt")
+    if exact.displacement is exact.velocity is exact.stress is None:
+        yield ("exact",), "must have at least one of displacement, velocity, stress"
+
+
+def _unusable(place, formulas, domain, definitions, variables) -> Iterator[Found]:
+    """Formulas (a list or a mapping) that cannot be read or use what is not known there."""
+    items = formulas.items() if isinstance(formulas, dict) else enumerate(formulas or ())
+    for key, formula in items:
+        try:
+            used = Expressions([formula], definitions, dim=domain.dimension).variables
+            unknown = sorted(used - set(variables))
+            there = [name for name in variables if name.lower() != "z" or domain.dimension == 3]
+            text = f"must not use {', '.join(unknown)}: it is a field of {', '.join(there)}"
+        except ValueError as error:
+            unknown, text = [formula], str(error)
+        if unknown and not _definitions_are_wrong(definitions, domain):
+            yield (*place, key), text
+
+
+def _definitions_are_wrong(given, domain) -> bool:
+    """Then each is told once, where it stands."""
+    return any(definitions(domain, given))
+
+
 def _wrong_length(vector: list, domain) -> str:
     return (
         f"must have {domain.dimension} entries, one for each axis of domain.size "
@@ -205,8 +301,11 @@ def _listed(numbers) -> str:
 CHECKS = (
     cells,
     walls,
+    periodic,
     support,
     moment,
+    blend,
+    stress_update,
     step,
     interval,
     gravity,
@@ -216,4 +315,8 @@ CHECKS = (
     mesh_file,
     lengths,
     inside,
+    definitions,
+    formulas,
+    body_force,
+    exact,
 )

@@ -8,16 +8,22 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from ..bases import BASES, BasisName
 from ..boundaries import RULES, RuleName, Wall
+from ..expressions import Expressions
+from ..formulas import Formula
 from ..materials import Material
 from ..model import Model, Positive, Vector
 from ..sampling import Sampling
 from ..shapes import Shape
-from ..transfers import APICChoice, Transfer
+from ..transfers import APICChoice, FLIPChoice, Transfer, XPICChoice
 from .checks import across
 
 
+VectorField = Annotated[list[Formula], Field(min_length=2, max_length=3)]
+"""A number or a formula for each axis."""
+
+
 class Walls(Model):
-    """A boundary rule for each side of the domain."""
+    """A boundary rule for each side of the domain; `periodic` is that of both sides of an axis."""
 
     left: RuleName = Field(default="none", description="rule at x = 0")
     right: RuleName = Field(default="none", description="rule at the largest x")
@@ -60,8 +66,14 @@ class Domain(Model):
             Wall(axis, upper, rules[word])
             for axis, sides in enumerate(SIDES[: self.dimension])
             for upper, word in zip((False, True), map(self._word, sides), strict=True)
-            if word != "none"
+            if word not in ("none", "periodic")
         )
+
+    @property
+    def periodic(self) -> tuple[int, ...]:
+        """The axes that close on themselves."""
+        pairs = enumerate(SIDES[: self.dimension])
+        return tuple(axis for axis, (lower, _) in pairs if self._word(lower) == "periodic")
 
     def _word(self, side: str) -> str:
         return getattr(self.walls, side) if isinstance(self.walls, Walls) else self.walls
@@ -77,7 +89,11 @@ class Method(Model):
         default=APICChoice(type="apic", force="mls"),
         description="what particles and nodes exchange",
     )
-    stress_update: Literal["usl"] = Field(default="usl", description="usl: stress is updated last")
+    stress_update: Literal["usl", "musl", "usf"] = Field(
+        default="usl",
+        description="usl: stress is updated last, from the new velocities of the nodes; musl: from "
+        "those of the particles, mapped to the nodes once more; usf: first, from the old ones",
+    )
     mass_cutoff: float | None = Field(
         default=None,
         ge=0,
@@ -96,6 +112,15 @@ class Method(Model):
     @property
     def transfer_class(self) -> type:
         return self.transfer.transfer
+
+    @property
+    def filter_order(self) -> int:
+        """m of XPIC."""
+        return self.transfer.order if isinstance(self.transfer, XPICChoice) else 1
+
+    def flip_part(self, dt: float) -> float:
+        """alpha of FLIP with a little PIC, in a step of length dt [s]."""
+        return self.transfer.flip_part(dt) if isinstance(self.transfer, FLIPChoice) else 1.0
 
 
 class Time(Model):
@@ -117,8 +142,14 @@ class Body(Model):
     material: str = Field(description="key of one of the materials")
     shape: Shape | None = Field(default=None, description="region that the body fills")
     particles: Sampling = Field(description="how the body becomes material points")
-    velocity: Vector | None = Field(
-        default=None, description="velocity at the start [m/s]; default 0"
+    velocity: VectorField | None = Field(
+        default=None,
+        description="velocity at the start [m/s], numbers or formulas of X, Y, Z; default 0",
+    )
+    displacement: VectorField | None = Field(
+        default=None,
+        description="of each particle at the start [m], formulas of the undeformed place X, Y, Z; "
+        "F is I plus its exact gradient; default 0",
     )
 
 
@@ -142,6 +173,22 @@ class Images(Model):
         AfterValidator(_increasing),
     ] = Field(
         default=None, description="values at the ends of the color scale; default: from the data"
+    )
+
+
+class Exact(Model):
+    """The solution, formulas of X, Y, Z and t: the run tells its error."""
+
+    displacement: VectorField | None = Field(
+        default=None, description="[m]; gives velocity, stress and energy too"
+    )
+    velocity: VectorField | None = Field(
+        default=None, description="[m/s]; default: the rate of the displacement"
+    )
+    stress: dict[Literal["xx", "yy", "zz", "xy", "yz", "zx"], Formula] | None = Field(
+        default=None,
+        description="Cauchy stress [Pa], the components that are compared; default: all, by the "
+        "law of each material from the gradient of the displacement (elastic laws)",
     )
 
 
@@ -171,11 +218,20 @@ class Scene(Model):
     domain: Domain = Field(description="the box in which things happen, and its grid")
     method: Method = Field(default=Method(), description="the parts of the method")
     time: Time = Field(description="duration and time step")
+    definitions: dict[str, Formula] = Field(
+        default={}, description="names for parts of the formulas of this scene"
+    )
     gravity: Vector | None = Field(default=None, description="acceleration [m/s^2]; default 0")
+    body_force: VectorField | None = Field(
+        default=None,
+        description="force per mass at the particles [m/s^2], formulas of the undeformed place X, "
+        "Y, Z, the place x, y, z and the time t; adds to gravity; default 0",
+    )
     materials: Annotated[dict[str, Material], Field(min_length=1)] = Field(
         description="materials by name"
     )
     bodies: Annotated[list[Body], Field(min_length=1)] = Field(description="bodies at the start")
+    exact: Exact | None = Field(default=None, description="the solution, if it is known")
     output: Output = Field(default=Output(), description="what the run writes")
 
     @model_validator(mode="after")
@@ -207,6 +263,12 @@ class Scene(Model):
     def gravity_vector(self) -> list[float]:
         """[m/s^2], one entry per axis."""
         return [0.0] * self.dimension if self.gravity is None else self.gravity
+
+    def field(self, entries: list[Formula] | None) -> Expressions | None:
+        """A vector of numbers or formulas as a field of X, x and t; None for None."""
+        if entries is None:
+            return None
+        return Expressions(entries, self.definitions, dim=self.dimension)
 
     @property
     def output_interval(self) -> float:

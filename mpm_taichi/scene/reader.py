@@ -8,11 +8,12 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from ..errors import InputError
+from ..formulas import Formula
 from ..model import Model, Vector
 from .checks import across
 from .document import Document, Fault, parse
 from .messages import messages
-from .models import Body, Domain, Method, Output, Scene, Time
+from .models import Body, Domain, Exact, Method, Output, Scene, Time, VectorField
 from .overrides import override
 from .wording import path_text, printable, shown, suggestion
 
@@ -104,6 +105,14 @@ def _sections(data: dict) -> dict[str, Any]:
             sections[name] = _without_wrong_keys(kind, data.get(name, {}))
     with suppress(ValidationError):
         sections["gravity"] = TypeAdapter(Vector | None).validate_python(data.get("gravity"))
+    with suppress(ValidationError):
+        force = TypeAdapter(VectorField | None).validate_python(data.get("body_force"))
+        sections["body_force"] = force
+    with suppress(ValidationError):
+        names = TypeAdapter(dict[str, Formula]).validate_python(data.get("definitions", {}))
+        sections["definitions"] = names
+    with suppress(ValidationError):
+        sections["exact"] = TypeAdapter(Exact | None).validate_python(data.get("exact"))
     if data.get("materials") and isinstance(data["materials"], dict):
         sections["materials"] = data["materials"]
     if isinstance(data.get("bodies"), list):

@@ -15,6 +15,7 @@ from pydantic import Field
 
 from .ball import Ball
 from .box import Box
+from .ring import Ring
 
-SHAPES = (Ball, Box)
-Shape = Annotated[Ball | Box, Field(discriminator="type")]
+SHAPES = (Ball, Box, Ring)
+Shape = Annotated[Ball | Box | Ring, Field(discriminator="type")]

@@ -4,27 +4,36 @@ To node i at r = x_i - x_p a particle gives the mass w_i m, the momentum w_i (m 
 impulse T dw_i of its stress, T = - dt V0 tau.  Which of these a transfer has, and how it reads what
 the nodes return, is all that a transfer says:
 
-- `affine`     it scatters A and gathers the moments B = sum_i w_i v_i r^T [m^2/s]
-- `gradient`   it scatters T dw_i and gathers L = sum_i v_i dw_i^T [1/s]
+- `affine`     it scatters A
+- `moments`    it gathers the moments B = sum_i w_i v_i r^T [m^2/s]
+- `gradient`   it scatters T dw_i and gathers S = sum_i v_i dw_i^T [1/s]
 - `increment`  it also gathers the change of the nodal velocity, sum_i w_i (v_i - v_i^old) [m/s]
-- `isolated_limit(basis)`  largest dt sqrt(M_d / rho) / dx of a lone particle under USL, where
-  M_d = d lam + 2 mu (numerics.md 4.1); None where there is none above zero
+- `filtered`   what the nodes do not see of the velocity is taken away (kernels/residual.py)
+- `isolated_limit(basis, half)`  largest dt sqrt(M_d / rho) / dx of a lone particle under USL, where
+  M_d = d lam + 2 mu (numerics.md 4.1) and half is its half width [cells]; None where there is none
+  above zero
 - `affine_momentum(m, C, T, D_inverse)`  A [kg/s], linear in (m, D_inverse)
-- `velocity(v_flip, v_pic)`              the new velocity of the particle [m/s]
-- `gradients(B, S, D_inverse)`           C and L [1/s], S being the gathered sum v_i dw_i^T
+- `velocity(v_flip, v_pic, alpha)`       the new velocity of the particle [m/s], alpha being the part
+  of FLIP where there is a choice
+- `gradients(B, S, D_inverse)`           C and L [1/s]
 """
+
+from math import exp
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from ..model import Model
+from ..model import Model, Positive
 from .apic import APIC
 from .flip import FLIP
+from .flip_blend import FLIPBlend
 from .mls import MLS
 from .pic import PIC
+from .tpic import TPIC
+from .xpic import XPIC
 
-TRANSFERS = (PIC, FLIP, APIC, MLS)
+TRANSFERS = (PIC, FLIP, FLIPBlend, XPIC, APIC, TPIC, MLS)
 
 
 class PICChoice(Model):
@@ -38,13 +47,41 @@ class PICChoice(Model):
 
 
 class FLIPChoice(Model):
-    """Keeps energy, and noise."""
+    """Keeps energy, and noise unless a little PIC is blended in."""
 
     type: Literal["flip"]
+    relaxation_time: Positive | None = Field(
+        default=None,
+        description="time [s] in which PIC takes all but 1/e of the noise: the FLIP part of a step "
+        "is exp(-dt / relaxation_time); default: pure FLIP",
+    )
+    ratio: float | None = Field(
+        default=None,
+        ge=0,
+        le=1,
+        description="FLIP part of each step, whatever its length, as many papers give it",
+    )
 
     @property
     def transfer(self):
-        return FLIP
+        return FLIP if self.relaxation_time is None and self.ratio is None else FLIPBlend
+
+    def flip_part(self, dt: float) -> float:
+        """alpha of a step of length dt [s]."""
+        if self.relaxation_time is not None:
+            return exp(-dt / self.relaxation_time)
+        return 1.0 if self.ratio is None else self.ratio
+
+
+class XPICChoice(Model):
+    """Keeps energy and drops noise, for the cost of order - 1 more transfers a step."""
+
+    type: Literal["xpic"]
+    order: int = Field(default=2, ge=1, le=20, description="m: 1 is PIC, higher is nearer to FLIP")
+
+    @property
+    def transfer(self):
+        return XPIC
 
 
 class APICChoice(Model):
@@ -60,4 +97,16 @@ class APICChoice(Model):
         return MLS if self.force == "mls" else APIC
 
 
-Transfer = Annotated[PICChoice | FLIPChoice | APICChoice, Field(discriminator="type")]
+class TPICChoice(Model):
+    """As smooth as APIC, and for every basis."""
+
+    type: Literal["tpic"]
+
+    @property
+    def transfer(self):
+        return TPIC
+
+
+Transfer = Annotated[
+    PICChoice | FLIPChoice | XPICChoice | APICChoice | TPICChoice, Field(discriminator="type")
+]

@@ -10,13 +10,15 @@ class APIC:
     Keeps angular momentum where the stencil is whole."""
 
     affine = True
+    moments = True
     gradient = True
     increment = False
+    filtered = False
 
     @staticmethod
-    def isolated_limit(basis):
-        """sqrt(2 / (H - D^-1 / 2))."""
-        return sqrt(2 / (basis.steepness - basis.inverse_moment / 2))
+    def isolated_limit(basis, half):
+        """sqrt(2 / (H - D^-1 / 2)); where D varies without its second term, which is safe."""
+        return sqrt(2 / (basis.steepness(half) - (basis.inverse_moment or 0.0) / 2))
 
     @staticmethod
     @ti.func
@@ -25,7 +27,7 @@ class APIC:
 
     @staticmethod
     @ti.func
-    def velocity(v_flip, v_pic):
+    def velocity(v_flip, v_pic, alpha):
         return v_pic
 
     @staticmethod

@@ -12,5 +12,5 @@ class FLIP(PIC):
 
     @staticmethod
     @ti.func
-    def velocity(v_flip, v_pic):
+    def velocity(v_flip, v_pic, alpha):
         return v_flip

@@ -10,17 +10,20 @@ class PIC:
     is lost within a few steps."""
 
     affine = False
+    moments = False
     gradient = True
     increment = False
+    filtered = False
 
     @staticmethod
-    def isolated_limit(basis):
+    def isolated_limit(basis, half):
         """sqrt(2 / H)."""
-        return sqrt(2 / basis.steepness) if basis.steepness else None
+        steepness = basis.steepness(half)
+        return sqrt(2 / steepness) if steepness else None
 
     @staticmethod
     @ti.func
-    def velocity(v_flip, v_pic):
+    def velocity(v_flip, v_pic, alpha):
         return v_pic
 
     @staticmethod

@@ -16,13 +16,13 @@ CELLS = {2: (7, 9), 3: (6, 7, 8)}
 DX = 0.1
 
 
-def bodies(rng, dim):
-    """Clouds of two unlike materials that overlap and fly at each other, beside walls; the second
-    material's body lies between the two bodies of the first in the order of the scene.
+def bodies(rng, dim, ends=()):
+    """Clouds of two unlike materials that overlap and fly at each other, beside walls or, along the
+    axes `ends`, across both ends of the box; the second material's body lies between the two bodies of the first in the order of the scene.
 
-    No particle is within a twentieth of a cell of a plane through nodes or midway between them,
-    where a stencil begins and ends: nodes of almost no mass magnify the rounding errors that are
-    compared."""
+    No particle, and no face of one, is within a twentieth of a cell of a plane through nodes or
+    midway between them, where a stencil begins and ends: nodes of almost no mass magnify the
+    rounding errors that are compared."""
     center = 0.5 * DX * np.array(CELLS[dim])
     soft = NeoHookean(type="neo_hookean", density=900, youngs_modulus=2e5, poissons_ratio=0.3)
     hard = LinearElastic(
@@ -30,11 +30,16 @@ def bodies(rng, dim):
     )
     clouds = [(hard, -1.2, 1.0), (soft, 0.0, -1.0), (hard, 1.5, 2.0)]
     for material, shift, sign in clouds:
-        count = int(rng.integers(8, 14))
-        xi = center / DX + shift + 2.4 * (rng.random((count, dim)) - 0.5)
-        x = DX * (np.floor(2 * xi) + 0.1 + 0.8 * (2 * xi % 1)) / 2
-        v = rng.normal(size=(count, dim)) + sign * np.arange(2, dim + 2)
-        yield BodyPoints(material, x, v, DX**dim / 8 * (0.5 + rng.random(count)))
+        xi = center / DX + shift + 2.4 * (rng.random((500, dim)) - 0.5)
+        V0 = DX**dim / 8 * (0.5 + rng.random((500, 1)))
+        half = 0.5 * V0 ** (1 / dim) / DX
+        knots = np.concatenate([2 * xi, 2 * (xi + half), 2 * (xi - half)], axis=1) % 1
+        clear = ((knots > 0.1) & (knots < 0.9)).all(axis=1)
+        for d in ends:
+            xi[:, d] = (xi[:, d] - 0.5 * CELLS[dim][d]) % CELLS[dim][d]
+        mine = np.flatnonzero(clear)[: int(rng.integers(8, 14))]
+        v = rng.normal(size=(len(mine), dim)) + sign * np.arange(2, dim + 2)
+        yield BodyPoints(material, DX * xi[mine], v, V0[mine, 0])
 
 
 def walls(dim, rules):
@@ -46,15 +51,19 @@ def walls(dim, rules):
     )
 
 
-def build(rng, dim, basis, transfer):
+def build(rng, dim, basis, transfer, ends=(), **options):
     """The same bodies in the fast solver and in the twin."""
-    common = list(bodies(rng, dim))
+    common = list(bodies(rng, dim, ends))
     gravity = rng.normal(size=dim)
+    closed = options.get("periodic", ())
+    part = float(rng.random())
+    options |= {"flip_part": lambda dt: part, "filter_order": 3}
 
     def make(solver, b, t, rules):
+        sides = tuple(wall for wall in walls(dim, rules) if wall.axis not in closed)
         return solver(
-            common, CELLS[dim], DX, getattr(b, basis), getattr(t, transfer), walls(dim, rules),
-            gravity,
+            common, CELLS[dim], DX, getattr(b, basis), getattr(t, transfer), sides, gravity,
+            **options,
         )  # fmt: skip
 
     return (

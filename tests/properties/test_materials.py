@@ -54,7 +54,7 @@ def apply(group: Template, dim: Template, F_minus_one: Array,
 def response(material, F, dt_L=None):
     """tau, psi, tau_zz of deformation gradients F [n, dim, dim], from a fresh state."""
     n, dim = F.shape[:2]
-    group = Group(material, dim, 0.1, 0, n)
+    group = Group(material, dim, 0.1, 0, n, np.zeros_like(F))
     dtype = ti.field(float, ()).to_numpy().dtype
     H = (F - np.eye(dim)).astype(dtype)
     L = (np.zeros_like(F) if dt_L is None else dt_L).astype(dtype)
@@ -127,7 +127,7 @@ def test_small_strain_is_hookes_law(rng, material, dim, precision):
     eps = 0.5 * (H + H.swapaxes(1, 2))
     hooke = 2 * c.mu * eps + c.lam * np.trace(eps, axis1=1, axis2=2)[:, None, None] * np.eye(dim)
     dtype = {"f32": np.float32, "f64": np.float64}[precision]
-    group = Group(material, dim, 0.1, 0, len(H))
+    group = Group(material, dim, 0.1, 0, len(H), np.zeros_like(H))
     tau, psi, tau_zz = np.zeros(H.shape, dtype), np.zeros(len(H), dtype), np.zeros(len(H), dtype)
     apply(group, dim, H.astype(dtype), H.astype(dtype), tau, psi, tau_zz)
     assert np.abs(tau - hooke).max() < 1e-5 * np.abs(hooke).max()

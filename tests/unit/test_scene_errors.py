@@ -11,7 +11,11 @@ from mpm_taichi.scene import load_scene
 from .scene_text import TEXT, changed
 
 BOX = "    shape: {type: box, min: [0.5, 1], max: [1, 2]}\n"
-KEYS = "version, title, source, domain, method, time, gravity, materials, bodies, output"
+KEYS = (
+    "version, title, source, domain, method, time, definitions, gravity, body_force, materials, "
+    "bodies, exact, output"
+)
+BASES = "linear, gimp, quadratic, cubic, quadratic_boundary, cubic_boundary"
 
 
 def faults(path, text: str | bytes, *overrides: str) -> list[str]:
@@ -50,8 +54,9 @@ SECTIONS = [
     ),
     (
         "left: slip",
-        "left: periodic",
-        "3:53: domain.walls.left: must be one of none, sticky, slip, separate (got 'periodic')",
+        "left: clamped",
+        "3:53: domain.walls.left: must be one of none, sticky, slip, separate, periodic "
+        "(got 'clamped')",
     ),
     (
         "left: slip",
@@ -60,35 +65,36 @@ SECTIONS = [
     ),
     (
         "{left: slip, top: sticky}",
-        "periodic",
-        "3:45: domain.walls: must be none, sticky, slip, separate or a mapping with the keys left, "
-        "right, bottom, top, back, front (got 'periodic')",
+        "closed",
+        "3:45: domain.walls: must be none, sticky, slip, separate, periodic or a mapping with the "
+        "keys left, right, bottom, top, back, front (got 'closed')",
     ),
     (
         "basis: linear",
-        "basis: cubic",
-        "5:3: method.basis: must be one of linear, quadratic (got 'cubic')",
+        "basis: hat",
+        f"5:3: method.basis: must be one of {BASES} (got 'hat')",
     ),
     (
         "type: flip",
         "type: flp",
-        "6:14: method.transfer.type: must be one of apic, flip, pic (got 'flp'); "
+        "6:14: method.transfer.type: must be one of apic, flip, pic, tpic, xpic (got 'flp'); "
         "did you mean 'flip'?",
     ),
     (
         "type: flip",
         "type: flip, force: mls",
-        "6:26: method.transfer.force: unknown key; known keys: type",
+        "6:26: method.transfer.force: unknown key; known keys: type, relaxation_time, ratio",
     ),
     (
         "{type: flip}",
         "flip",
-        "6:3: method.transfer: must be a mapping with type apic or flip or pic (got 'flip')",
+        "6:3: method.transfer: must be a mapping with type apic or flip or pic or tpic or xpic "
+        "(got 'flip')",
     ),
     (
         "basis: linear",
-        "stress_update: musl",
-        "5:3: method.stress_update: must be usl (got 'musl')",
+        "stress_update: last",
+        "5:3: method.stress_update: must be one of usl, musl, usf (got 'last')",
     ),
     (
         "step: 1.0e-3",
@@ -199,9 +205,9 @@ MATERIALS_AND_BODIES = [
     (
         "type: ball,",
         "type: bal,",
-        "19:13: bodies[0].shape.type: must be one of ball, box (got 'bal'); did you mean 'ball'?",
+        "19:13: bodies[0].shape.type: must be one of ball, box, ring (got 'bal'); did you mean 'ball'?",
     ),
-    ("type: ball, ", "", "19:5: bodies[0].shape.type: is required: ball or box"),
+    ("type: ball, ", "", "19:5: bodies[0].shape.type: is required: ball or box or ring"),
     (
         ", radius: 0.2}",
         ", radus: 0.2}",
@@ -287,14 +293,51 @@ ACROSS_SECTIONS = [
     (
         "  transfer: {type: flip}\n",
         "",
-        "4:1: method.transfer: apic needs a basis whose moment is constant, and that of the linear "
-        "basis is not: take transfer pic or flip, or basis quadratic",
+        "4:1: method.transfer: apic divides by the moment of the weights, and that of the linear "
+        "basis has zeros: take transfer tpic, flip, xpic or pic, or basis gimp, quadratic, cubic",
+    ),
+    (
+        "basis: linear\n  transfer: {type: flip}",
+        "basis: gimp",
+        "4:1: method.transfer: the force in its mls form needs a basis whose moment is constant, "
+        "and that of the gimp basis is not: take force: gradient, or basis quadratic or cubic",
+    ),
+    (
+        "basis: linear\n  transfer: {type: flip}",
+        "stress_update: musl",
+        "5:3: method.stress_update: musl needs the force along grad w: take transfer {type: apic, "
+        "force: gradient} or another, or stress_update: usl",
     ),
     (
         "{type: flip}",
-        "{type: apic, force: gradient}",
-        "6:3: method.transfer: apic needs a basis whose moment is constant, and that of the linear "
-        "basis is not: take transfer pic or flip, or basis quadratic",
+        "{type: flip, ratio: 0.9, relaxation_time: 0.1}",
+        "6:26: method.transfer.ratio: must not be given with relaxation_time: each says how much "
+        "PIC is blended in",
+    ),
+    (
+        "left: slip",
+        "left: periodic",
+        "3:45: domain.walls.right: must be periodic too, as left is: both are sides of one axis",
+    ),
+    (
+        "gravity: [0, -9.81]",
+        "body_force: [sin(X), \"R*2\"]",
+        "8:22: body_force[1]: unknown name 'R'; there are X, Y, pi, t, x, y",
+    ),
+    (
+        "gravity: [0, -9.81]",
+        "definitions: {R: x^2, S: R}",
+        "8:15: definitions.R: the character '^' has no meaning in a formula: use ** for powers",
+    ),
+    (
+        "velocity: [0.1, 0.1]",
+        "velocity: [t, 0.1]",
+        "21:16: bodies[0].velocity[0]: must not use t: it is a field of X, Y",
+    ),
+    (
+        "output: {every",
+        "exact: {}\noutput: {every",
+        "26:1: exact: must have at least one of displacement, velocity, stress",
     ),
     ("step: 1.0e-3", "step: 4", "7:18: time.step: must not exceed time.end, 3.5 (got 4)"),
     ("every: 0.05", "every: 4", "26:10: output.every: must not exceed time.end, 3.5 (got 4)"),
@@ -426,11 +469,11 @@ def test_all_faults_at_once_in_file_order(tmp_path):
     text = text.replace("material: rubber", "material: ruber").replace("[0.1, 0.1]", "[0.1, x]")
     text = text.replace("every: 0.05", "evry: 0.05")
     assert faults(tmp_path / "scene.yaml", text) == [
-        "5:3: method.basis: must be one of linear, quadratic (got 'liner'); did you mean 'linear'?",
+        f"5:3: method.basis: must be one of {BASES} (got 'liner'); did you mean 'linear'?",
         "7:13: time.end: must be a finite number (got .nan)",
         "10:34: materials.rubber.density: must be greater than 0 (got 0)",
         "18:5: bodies[0].material: no material is named 'ruber'; did you mean 'rubber'?",
-        "21:21: bodies[0].velocity[1]: must be a number (got 'x')",
+        "21:21: bodies[0].velocity[1]: must not use x: it is a field of X, Y",
         "26:10: output.evry: unknown key; did you mean 'every'?",
     ]
 

@@ -7,13 +7,14 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from mpm_taichi.gmsh_session import gmsh_session
-from mpm_taichi.shapes import SHAPES, Ball, Box, Shape
+from mpm_taichi.shapes import SHAPES, Ball, Box, Ring, Shape
 
 EXAMPLES = [
     Ball(type="ball", center=[0.3, -0.2], radius=0.7),
     Ball(type="ball", center=[0.3, -0.2, 1.1], radius=0.7),
     Box(type="box", min=[-0.4, 0.1], max=[0.5, 0.35]),
     Box(type="box", min=[-0.4, 0.1, 2.0], max=[0.5, 0.35, 2.6]),
+    Ring(type="ring", center=[0.3, -0.2], inner_radius=0.4, outer_radius=0.7),
 ]
 every_shape = pytest.mark.parametrize("shape", EXAMPLES, ids=repr)
 
@@ -32,10 +33,10 @@ def test_every_shape_has_an_example():
 
 @pytest.mark.parametrize(
     "shape, volume",
-    list(zip(EXAMPLES, [pi * 0.49, 4 / 3 * pi * 0.343, 0.225, 0.135], strict=True)),
+    list(zip(EXAMPLES, [pi * 0.49, 4 / 3 * pi * 0.343, 0.225, 0.135, pi * 0.33], strict=True)),
 )
 def test_volume(shape, volume):
-    """pi r^2, 4/3 pi r^3, products of edges, to the rounding of a few operations."""
+    """pi r^2, 4/3 pi r^3, products of edges, pi (R^2 - r^2), to the rounding of a few operations."""
     assert shape.volume() == pytest.approx(volume, rel=1e-14)
 
 
@@ -58,6 +59,13 @@ def test_distance_is_exact(shape, rng):
         direction = offset / np.sqrt((offset**2).sum(axis=1, keepdims=True))
         closest = shape.center + shape.radius * direction
         inside = (offset**2).sum(axis=1) < shape.radius**2
+    elif isinstance(shape, Ring):
+        offset = x - shape.center
+        distance = np.sqrt((offset**2).sum(axis=1))
+        inside = (distance > shape.inner_radius) & (distance < shape.outer_radius)
+        middle = 0.5 * (shape.inner_radius + shape.outer_radius)
+        nearest = np.where(distance < middle, shape.inner_radius, shape.outer_radius)
+        closest = shape.center + offset * (nearest / distance)[:, None]
     else:
         closest = np.clip(x, shape.min, shape.max)
         inside = (closest == x).all(axis=1)
@@ -108,6 +116,10 @@ def test_gmsh_builds_the_same_solid(shape):
         ({"type": "box", "min": [0, 0], "max": [1, 1, 1]}, "equally many.* 2 and 3"),
         ({"type": "box", "min": [0, 0.5], "max": [1, 0.2]}, r"along y \(got 0.5 and 0.2\)"),
         ({"type": "box", "min": [0, 0, 1], "max": [1, 1, 1]}, "along z"),
+        (
+            {"type": "ring", "center": [0, 0], "inner_radius": 2, "outer_radius": 1},
+            r"less than outer_radius, 1 \(got 2\)",
+        ),
         ({"type": "blob"}, "ball"),
     ],
 )

@@ -37,6 +37,8 @@ def restart(solver, x, v, V0):
     particles.V0.from_numpy(V0)
     particles.m.from_numpy(m)
     particles.id.from_numpy(np.arange(len(x)))
+    if solver.basis.extended:
+        particles.half_width.from_numpy(0.5 * V0 ** (1 / particles.dim) / solver.grid.dx)
     particles.H.fill(0.0)
     particles.rows.from_numpy(particles.gathered(m, v))
     solver.drift = np.inf
@@ -44,8 +46,8 @@ def restart(solver, x, v, V0):
 
 def advance(solver, dt, steps):
     solver.start(dt)
-    for _ in range(steps):
-        solver.step(dt, lambda speed: dt)
+    for step in range(steps):
+        solver.step(step * dt, dt, lambda speed: dt)
 
 
 def snapshot(solver):

@@ -8,18 +8,24 @@ class Linear:
 
     name = "linear"
     support = 2
+    extended = False
+    modified = False
     inverse_moment = None
-    steepness = None
+    moment_vanishes = True
     bulk_limit = 0.76
+
+    @staticmethod
+    def steepness(half):
+        return None
 
     @staticmethod
     def first(xi):
         return np.floor(xi).astype(int)
 
     @staticmethod
-    def weights(a):
+    def weights(a, half):
         return np.array([1 - abs(a - k) for k in range(2)])
 
     @staticmethod
-    def slopes(a):
+    def slopes(a, half):
         return np.array([-np.ones_like(a), np.ones_like(a)])

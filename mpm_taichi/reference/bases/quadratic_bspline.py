@@ -8,20 +8,26 @@ class QuadraticBSpline:
 
     name = "quadratic"
     support = 3
+    extended = False
+    modified = False
     inverse_moment = 4.0
-    steepness = 6.0
+    moment_vanishes = False
     bulk_limit = 1.03
+
+    @staticmethod
+    def steepness(half):
+        return 6.0
 
     @staticmethod
     def first(xi):
         return np.floor(xi - 0.5).astype(int)
 
     @staticmethod
-    def weights(a):
+    def weights(a, half):
         r = a - np.arange(3)[:, None]
         return np.where(abs(r) < 0.5, 0.75 - r**2, 0.5 * (1.5 - abs(r)) ** 2)
 
     @staticmethod
-    def slopes(a):
+    def slopes(a, half):
         r = a - np.arange(3)[:, None]
         return np.where(abs(r) < 0.5, -2 * r, (abs(r) - 1.5) * np.sign(r))

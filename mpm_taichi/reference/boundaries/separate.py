@@ -7,6 +7,8 @@ class Separate:
     """v <- v - min(v . n, 0) n."""
 
     name = "separate"
+    holds = False
+    lets_go = True
 
     @staticmethod
     def velocity(v, n):

@@ -5,6 +5,8 @@ class Sticky:
     """v = 0."""
 
     name = "sticky"
+    holds = True
+    lets_go = False
 
     @staticmethod
     def velocity(v, n):

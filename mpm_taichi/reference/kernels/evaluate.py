@@ -2,10 +2,17 @@
 
 import numpy as np
 
+from .stencil import moment, weigh
 
-def evaluate(particles, grid):
-    """x [m], v [m/s] [n, dim]; H, tau (Kirchhoff stress, Pa), A (affine momentum, kg/s) [n, dim,
-    dim]; psi (elastic energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
+
+def evaluate(particles, grid, basis):
+    """x [m], v [m/s], D (moment of each axis, dx^2) [n, dim]; H, tau (Kirchhoff stress, Pa), A
+    (affine momentum, kg/s) [n, dim, dim]; psi (elastic energy per reference volume, J/m^3) and, in
+    plane strain, tau_zz [n]."""
+    D = np.zeros_like(particles.x)
+    for p in range(particles.count):
+        _, a, w, _ = weigh(p, particles, grid, basis)
+        D[p] = moment(w, a)
     tau = np.zeros((particles.count, grid.dim, grid.dim))
     tau_zz, psi = np.zeros((2, particles.count))
     for group in particles.groups:
@@ -16,4 +23,4 @@ def evaluate(particles, grid):
             if grid.dim == 2:
                 tau_zz[p] = group.law.out_of_plane_stress(c, H_same, s)
     carried = {name: getattr(particles, name) for name in ("x", "v", "H", "A")}
-    return carried | {"tau": tau, "psi": psi, "tau_zz": tau_zz}
+    return carried | {"tau": tau, "psi": psi, "tau_zz": tau_zz, "D": D}

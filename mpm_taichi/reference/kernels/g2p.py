@@ -2,18 +2,31 @@
 
 import numpy as np
 
-from .stencil import stencil
+from .stencil import moment, stencil, weigh
 
 
-def g2p(particles, grid, basis, transfer):
-    """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
-    with `transfer.increment` the change sum_i w_ip (v_i - v_i^old)."""
-    for field in (particles.v_pic, particles.dv, particles.B, particles.S):
-        field[:] = 0.0
+def g2p(particles, grid, basis, transfer, what="all"):
+    """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T (times D^-1 where D varies),
+    S_p = sum_i v_i grad w_ip^T, and with `transfer.increment` the change
+    sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all" or for the "gradient" S_p; or it is
+    the "residual" of a filter, R_p -= sum_i w_ip R_i."""
+    if what == "residual":
+        for p in range(particles.count):
+            for i, _, w, _ in stencil(p, particles, grid, basis):
+                particles.R[p] -= w * grid.residual[i]
+        return
+    particles.S[:] = 0.0
+    if what == "all":
+        for field in (particles.v_pic, particles.dv, particles.B):
+            field[:] = 0.0
     for p in range(particles.count):
-        for i, r, w, dw in stencil(particles.x[p], grid, basis):
-            particles.v_pic[p] += w * grid.v[i]
-            if transfer.increment:
-                particles.dv[p] += w * (grid.v[i] - grid.v_old[i])
-            particles.B[p] += w * np.outer(grid.v[i], r)
+        for i, r, w, dw in stencil(p, particles, grid, basis):
             particles.S[p] += np.outer(grid.v[i], dw)
+            if what == "all":
+                particles.v_pic[p] += w * grid.v[i]
+                particles.B[p] += w * np.outer(grid.v[i], r)
+                if transfer.increment:
+                    particles.dv[p] += w * (grid.v[i] - grid.v_old[i])
+        if what == "all" and basis.inverse_moment is None and transfer.moments:
+            _, a, w, _ = weigh(p, particles, grid, basis)
+            particles.B[p] /= moment(w, a)

@@ -4,14 +4,14 @@ import numpy as np
 
 
 def apply_walls(v, i, grid, walls):
-    """The rule of each wall acts at its nodes and at the ghost nodes behind it."""
+    """The rule of each wall acts at its nodes; those behind it are images (kernels/ghosts.py)."""
     for wall in walls:
         i_d = i[wall.axis] - grid.ghost
         n = np.eye(grid.dim)[wall.axis]
         if wall.upper:
-            if i_d >= grid.cells[wall.axis]:
+            if i_d == grid.cells[wall.axis]:
                 v = wall.rule.velocity(v, -n)
-        elif i_d <= 0:
+        elif i_d == 0:
             v = wall.rule.velocity(v, n)
     return v
 

@@ -3,12 +3,18 @@
 from .stencil import stencil
 
 
-def p2g(particles, grid, basis, transfer):
+def p2g(particles, grid, basis, transfer, what="all"):
     """m_i = sum_p w_ip m_p, (m v)_i = sum_p w_ip (m_p v_p + A_p (x_i - x_p)) and
-    impulse_i = sum_p T_p grad w_ip; MLS-MPM has its impulse in A."""
+    impulse_i = sum_p T_p grad w_ip + w_ip dt m_p b_p; MLS-MPM has that of the stress in A.  Of these
+    `what` asks for "all" or for mass and "momentum"; or it is the "residual", sum_p w_ip m_p R_p."""
     for p in range(particles.count):
-        for i, r, w, dw in stencil(particles.x[p], grid, basis):
+        for i, r, w, dw in stencil(p, particles, grid, basis):
+            if what == "residual":
+                grid.residual[i] += w * particles.m[p] * particles.R[p]
+                continue
             grid.m[i] += w * particles.m[p]
             grid.mv[i] += w * (particles.m[p] * particles.v[p] + particles.A[p] @ r)
-            if transfer.gradient:
-                grid.impulse[i] += particles.T[p] @ dw
+            if what == "all":
+                grid.impulse[i] += w * particles.force[p]
+                if transfer.gradient:
+                    grid.impulse[i] += particles.T[p] @ dw

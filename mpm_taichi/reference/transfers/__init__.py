@@ -2,7 +2,10 @@
 
 from .apic import APIC
 from .flip import FLIP
+from .flip_blend import FLIPBlend
 from .mls import MLS
 from .pic import PIC
+from .tpic import TPIC
+from .xpic import XPIC
 
-TRANSFERS = (PIC, FLIP, APIC, MLS)
+TRANSFERS = (PIC, FLIP, FLIPBlend, XPIC, APIC, TPIC, MLS)

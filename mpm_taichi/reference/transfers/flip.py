@@ -9,5 +9,5 @@ class FLIP(PIC):
     increment = True
 
     @staticmethod
-    def velocity(v_flip, v_pic):
+    def velocity(v_flip, v_pic, alpha):
         return v_flip

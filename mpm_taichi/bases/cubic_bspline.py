@@ -1,0 +1,45 @@
+"""Cubic B-splines: Steffen, Kirby and Berzins (2008), https://doi.org/10.1002/nme.2360."""
+
+import taichi as ti
+
+
+class CubicBSpline:
+    """w = 2/3 - r^2 + |r|^3 / 2 for |r| < 1, (2 - |r|)^3 / 6 up to 2; C2, with D = dx^2 / 3
+    everywhere.  Particles keep a in [1, 2)."""
+
+    name = "cubic"
+    support = 4
+    extended = False
+    modified = False
+    inverse_moment = 3.0
+    moment_vanishes = False
+    bulk_limit = 1.37
+
+    @staticmethod
+    def steepness(half):
+        return 3.14
+
+    @staticmethod
+    @ti.func
+    def first(xi):
+        return ti.floor(xi, int) - 1
+
+    @staticmethod
+    @ti.func
+    def weights(a, half):
+        u, v = a - 1.0, 2.0 - a
+        third, sixth = 1.0 / 3, 1.0 / 6
+        return ti.Matrix.rows(
+            [
+                sixth * v**3,
+                2 * third - u**2 * (1.0 - 0.5 * u),
+                2 * third - v**2 * (1.0 - 0.5 * v),
+                sixth * u**3,
+            ]
+        )
+
+    @staticmethod
+    @ti.func
+    def slopes(a, half):
+        u, v = a - 1.0, 2.0 - a
+        return ti.Matrix.rows([-0.5 * v**2, u * (1.5 * u - 2.0), v * (2.0 - 1.5 * v), 0.5 * u**2])

@@ -1,0 +1,71 @@
+"""Stage 4b, of filtered transfers: take away the velocities that the nodes do not see."""
+
+import taichi as ti
+
+from ..runtime import Template
+from ..stages import stage
+from .blocks import BLOCK, first_block
+from .g2p import g2p
+from .ghosts import fill_ghosts, fold_ghosts
+from .p2g import p2g
+from .rows import put_vector, vector
+
+
+@ti.func
+def begin_or_end(p, particles: Template, dim: Template, end: Template):
+    """m R = m (v_FLIP - sum_i w_i v_i), and when it has been filtered, m v = m v_FLIP - m R."""
+    row = ti.static(particles.layout.residual)
+    if ti.static(end):
+        particles.rows[p, 0] = particles.rows[p, 0] - particles.rows[p, row]
+    else:
+        v_pic = vector(particles.rows, p, particles.layout.pic, dim)
+        mv = vector(particles.rows, p, 0, dim)
+        put_vector(particles.rows, p, row, mv - particles.m[p] * v_pic, 0.0)
+
+
+@ti.kernel
+def begin_or_end_all(particles: Template, dim: Template, end: Template, threads: int):
+    for counter in range(512 * threads):
+        if counter % 512 == 0:
+            worker = counter // 512
+            last = first_block(worker + 1, threads, particles.count)
+            for block in range(first_block(worker, threads, particles.count), last):
+                start = block * BLOCK
+                for p in range(start, ti.min(start + BLOCK, particles.count)):
+                    begin_or_end(p, particles, dim, end)
+
+
+@ti.kernel
+def average(grid: Template, empty: Template, threads: int):
+    """Residual momentum to velocity at the nodes, or nothing at all."""
+    for counter in range(512 * threads):
+        if counter % 512 == 0:
+            begin, end = grid.active[0], grid.active[1]
+            worker = counter // 512
+            last = first_block(worker + 1, threads, end - begin)
+            for block in range(first_block(worker, threads, end - begin), last):
+                start = begin + block * BLOCK
+                for i in range(start, ti.min(start + BLOCK, end)):
+                    mass = grid.node[i][grid.dim]
+                    lanes = ti.Vector.zero(float, 4)
+                    if ti.static(not empty):
+                        if mass > grid.constants[None].mass_cutoff:
+                            lanes = grid.node[i + grid.apart] / mass
+                    grid.node[i + grid.apart] = lanes
+
+
+@stage
+def take_residual(particles, grid, basis, transfer, walls, gravity, order):
+    """R <- (1 - S S+) R, order - 1 times, from R = v_FLIP - sum_i w_ip v_i = (1 - S S+) v_old.
+
+    On return row 0 holds (m (v_FLIP - R), m)."""
+    threads = grid.threads
+    begin_or_end_all(particles, grid.dim, False, threads)
+    for _ in range(order - 1):
+        average(grid, True, threads)
+        p2g(particles, grid, basis, transfer, "residual")
+        fold_ghosts(grid, walls, gravity, 0.0, updated=True)
+        average(grid, False, threads)
+        fill_ghosts(grid, walls, gravity)
+        g2p(particles, grid, basis, transfer, "residual")
+    begin_or_end_all(particles, grid.dim, True, threads)
