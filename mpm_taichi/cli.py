@@ -15,6 +15,7 @@ from .errors import InputError, RunError
 COMMANDS = {
     "run": "run a scene (the default: `mpm_taichi SCENE`)",
     "check": "validate and seed a scene, and show the plan: particles, time step, steps",
+    "converge": "run a scene at successive resolutions: errors, observed order, picture",
     "schema": "print the JSON Schema of scene files, for editors",
 }
 
@@ -65,25 +66,42 @@ def parser() -> argparse.ArgumentParser:
         command.add_argument(
             "--threads", type=_positive, help="default: what the size of the scene is worth"
         )
-        command.add_argument(
-            "--frames", type=_positive, metavar="N", help="number of outputs after the start"
-        )
-        if name == "run":
+        if name == "converge":
             command.add_argument(
-                "-o", "--output", type=Path, metavar="DIR",
-                help="run folder; default: the next of runs/<scene>-001, -002, ...",
+                "--levels", type=_levels, metavar="N", default=4,
+                help="resolutions, each with cells of half the size; default: 4",
             )  # fmt: skip
+        else:
             command.add_argument(
-                "--overwrite", action="store_true", help="replace the run that is in -o DIR"
+                "--frames", type=_positive, metavar="N", help="number of outputs after the start"
             )
+        if name != "check":
+            _add_output(command, "converge-" * (name == "converge"))
+        if name == "run":
             command.add_argument("--json", action="store_true", help="print run.json to stdout")
-            command.add_argument("-q", "--quiet", action="store_true", help="no progress")
     return top
+
+
+def _add_output(command: argparse.ArgumentParser, kind: str) -> None:
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="DIR",
+        help=f"folder of the results; default: the next of runs/<scene>-{kind}001, -{kind}002, ...",
+    )  # fmt: skip
+    command.add_argument(
+        "--overwrite", action="store_true", help="replace the results that are in -o DIR"
+    )
+    command.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
 def _positive(text: str) -> int:
     if not text.isdecimal() or not 1 <= int(text) <= 2**31 - 1:
         raise argparse.ArgumentTypeError(f"must be a whole number from 1 on (got {text!r})")
+    return int(text)
+
+
+def _levels(text: str) -> int:
+    if text not in map(str, range(2, 9)):
+        raise argparse.ArgumentTypeError(f"must be a whole number from 2 to 8 (got {text!r})")
     return int(text)
 
 
@@ -103,7 +121,9 @@ def _with_command(words: list[str]) -> list[str]:
 
 
 def _first_plain_word(words: list[str]) -> int | None:
-    takes_value = {"-o", "--output", "--set", "--device", "--precision", "--threads", "--frames"}
+    takes_value = {
+        "-o", "--output", "--set", "--device", "--precision", "--threads", "--frames", "--levels",
+    }  # fmt: skip
     skip = False
     for number, word in enumerate(words):
         if skip:
@@ -123,17 +143,21 @@ def _dispatch(options) -> int:
         return 0
     changes = list(options.set)
     scene = load_scene(options.scene, changes)
-    if options.frames is not None:
+    if getattr(options, "frames", None) is not None:
         changes.append(f"output.every={scene.time.end / options.frames!r}")
         scene = load_scene(options.scene, changes)
 
     from rich.console import Console
 
-    from . import run
-
     console = Console(
         stderr=True, quiet=getattr(options, "quiet", False), markup=False, highlight=False
     )
+    if options.command == "converge":
+        from .converge import converge
+
+        return converge(scene, options.scene.stem, options, console)
+    from . import run
+
     if options.command == "check":
         return run.check(scene, options, console)
     return run.run(scene, options.scene.stem, options, console)

@@ -19,7 +19,7 @@ class Report:
         self.simulation, self.command = simulation, command
         self.started = time.time()
 
-    def content(self, status: str, history=None, error: str | None = None) -> dict:
+    def content(self, status: str, history=None, error: str | None = None, errors=None) -> dict:
         simulation = self.simulation
         time_step = simulation.time_step
         result = {
@@ -28,11 +28,7 @@ class Report:
             "command": self.command,
             "started": time.strftime("%Y-%m-%dT%H:%M:%S%z", time.localtime(self.started)),
             "wall_seconds": time.time() - self.started,
-            "versions": {
-                "mpm_taichi": __version__,
-                "python": platform.python_version(),
-                **{package: installed(package) for package in PACKAGES},
-            },
+            "versions": versions(),
             "machine": platform.platform(),
             "device": simulation.device,
             "precision": simulation.precision,
@@ -58,7 +54,17 @@ class Report:
         }
         if history is not None and history.first is not None:
             result["conservation"] = conservation(history.first, history.last)
+        if errors is not None:
+            result["errors"] = errors.summary()
         return result
+
+
+def versions() -> dict[str, str | None]:
+    return {
+        "mpm_taichi": __version__,
+        "python": platform.python_version(),
+        **{package: installed(package) for package in PACKAGES},
+    }
 
 
 def installed(package: str) -> str | None:

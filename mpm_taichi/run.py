@@ -12,7 +12,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from . import run_folder
 from .errors import RunError
-from .recorders import History, Images
+from .recorders import Errors, History, Images
 from .report import Report
 from .scene import dump_scene
 from .simulation import Simulation
@@ -35,7 +35,7 @@ def run(scene, name, options, console: Console) -> int:
     simulation = Simulation(scene, options.device, options.precision, options.threads)
     announce(simulation, console)
     folder = run_folder.create(name, options.output, options.overwrite)
-    report, history = Report(simulation, sys.argv[1:]), None
+    report, history, errors = Report(simulation, sys.argv[1:]), None, None
     status, error, code = "done", None, 0
     try:
         run_folder.write_text(folder / "scene.yaml", dump_scene(scene))
@@ -44,6 +44,12 @@ def run(scene, name, options, console: Console) -> int:
             history = History(folder / "history.csv", simulation, scene.output.history.every_steps)
             stack.callback(history.close)
             recorders: list = [history]
+            if scene.exact is not None:
+                every = scene.output.history.every_steps
+                errors = Errors(folder / "errors.csv", simulation, every)
+                stack.callback(errors.close)
+                recorders.append(errors)
+                console.print(errors.exact.describe(), soft_wrap=True)
             if scene.output.images != "none":
                 recorders.append(Images(folder / "frames", simulation, scene.output.images))
                 stack.callback(recorders[-1].close)
@@ -60,13 +66,15 @@ def run(scene, name, options, console: Console) -> int:
         with contextlib.suppress(OSError):
             run_folder.write_json(folder / "run.json", report.content("failed", None, repr(fault)))
         raise
-    content = report.content(status, history, error)
+    content = report.content(status, history, error, errors)
     try:
         run_folder.write_json(folder / "run.json", content)
     except OSError as failure:
         status, error, code = "failed", error or f"writing to {folder} failed: {failure}", code or 1
     for warning, count in content["warnings"].items():
         console.print(f"warning: {warning}: {count}", soft_wrap=True)
+    if errors is not None and errors.summary():
+        console.print(errors.describe(), soft_wrap=True)
     if error:
         print(f"{status}: {error}", file=sys.stderr)  # also where the console is quiet
     console.print(summary(simulation, folder, status), soft_wrap=True)

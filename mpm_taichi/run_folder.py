@@ -4,40 +4,53 @@ import contextlib
 import json
 from itertools import count
 from pathlib import Path
+from typing import NamedTuple
 
 from .errors import InputError
 
-CONTENTS = ("scene.yaml", "run.json", "history.csv", "frames/frame_*.png")
-"""What a run writes, and all that `overwrite` removes."""
+
+class Contents(NamedTuple):
+    """What a command writes, and all that `overwrite` removes.  A folder without the `mark` is not
+    its own."""
+
+    noun: str
+    mark: str
+    others: tuple[str, ...]
 
 
-def refuse(wanted: Path | None, overwrite: bool) -> None:
+RUN = Contents("run", "run.json", ("scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png"))
+STUDY = Contents(
+    "convergence study", "converge.json", ("scene.yaml", "converge.csv", "converge.png")
+)
+
+
+def refuse(wanted: Path | None, overwrite: bool, contents: Contents = RUN) -> None:
     """InputError where `create` would have to touch what is not a run, or was not asked to."""
     if wanted is None or not wanted.exists():
         return
     if not wanted.is_dir():
-        raise InputError(f"-o {wanted}: this is a file; name a folder for the run")
+        raise InputError(f"-o {wanted}: this is a file; name a folder for the {contents.noun}")
     if not any(wanted.iterdir()):
         return
     if not overwrite:
         raise InputError(
             f"-o {wanted}: the folder is not empty; name another one, or add --overwrite to "
-            "replace the run in it"
+            f"replace the {contents.noun} in it"
         )
-    if not (wanted / "run.json").is_file():
+    if not (wanted / contents.mark).is_file():
         raise InputError(
-            f"-o {wanted} --overwrite: the folder holds no run (no run.json), so nothing in it is "
-            "replaced; name another one"
+            f"-o {wanted} --overwrite: the folder holds no {contents.noun} (no {contents.mark}), "
+            "so nothing in it is replaced; name another one"
         )
 
 
-def create(scene_name: str, wanted: Path | None, overwrite: bool) -> Path:
+def create(scene_name: str, wanted: Path | None, overwrite: bool, contents: Contents = RUN) -> Path:
     """A folder without a run: `wanted`, or the first free one of runs/<scene>-001, -002, ..."""
-    refuse(wanted, overwrite)
+    refuse(wanted, overwrite, contents)
     try:
         if wanted is None:
             return _first_free(Path("runs"), scene_name)
-        for pattern in CONTENTS:
+        for pattern in (contents.mark, *contents.others):
             for path in wanted.glob(pattern):
                 path.unlink()
         with contextlib.suppress(OSError):  # not there, or with a file of the user's

@@ -5,7 +5,8 @@
 - `close()`                        called once, also when the run has failed
 """
 
+from .errors import Errors
 from .history import History
 from .images import Images
 
-__all__ = ["History", "Images"]
+__all__ = ["Errors", "History", "Images"]

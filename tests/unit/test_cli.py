@@ -17,7 +17,9 @@ from tests.command_line import SCENES, environment, history, mpm_taichi
 LATTICE = SCENES / "two_disks_lattice.yaml"
 SHORT = ("--set", "time.end=0.05", "--set", "output.images=none")
 TINY = ("--set", "time.end=0.002", "--set", "output.every=0.001", "--set", "output.images=none")
-STAGES = {"sort", "clear", "p2g", "grid_update", "g2p", "update_stress"}
+STAGES = {
+    "sort", "clear", "p2g", "fold_ghosts", "grid_update", "fill_ghosts", "g2p", "update_stress",
+}  # fmt: skip
 
 
 def in_words(text: str) -> bool:
@@ -273,7 +275,7 @@ def test_a_library_that_is_missing(tmp_path):
     [
         (["rnu", "x.yaml"], "'rnu' is neither a command nor a .yaml file; did you mean 'run'?"),
         (["chekc", "x.yaml"], "did you mean 'check'?"),
-        (["x.txt"], "'x.txt' is neither a command nor a .yaml file (run, check, schema)"),
+        (["x.txt"], "'x.txt' is neither a command nor a .yaml file (run, check, converge, schema)"),
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),
         ([], "the following arguments are required: COMMAND"),
