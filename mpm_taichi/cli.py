@@ -7,6 +7,7 @@ import difflib
 import json
 import os
 import sys
+from math import nan
 from pathlib import Path
 
 from . import __version__
@@ -16,6 +17,7 @@ COMMANDS = {
     "run": "run a scene (the default: `mpm_taichi SCENE`)",
     "check": "validate and seed a scene, and show the plan: particles, time step, steps",
     "converge": "run a scene at successive resolutions: errors, observed order, picture",
+    "advise": "which schemes were shown to reach an error, and how far the scene is from where",
     "schema": "print the JSON Schema of scene files, for editors",
 }
 
@@ -58,6 +60,9 @@ def parser() -> argparse.ArgumentParser:
             "--set", action="append", default=[], metavar="KEY=VALUE",
             help="change a value of the scene: --set bodies[0].velocity=[0,1]",
         )  # fmt: skip
+        if name == "advise":
+            _add_aim(command)
+            continue
         command.add_argument("--device", choices=("cpu", "cuda", "vulkan", "metal"), default="cpu")
         command.add_argument(
             "--precision", choices=("f32", "f64"),
@@ -93,6 +98,30 @@ def _add_output(command: argparse.ArgumentParser, kind: str) -> None:
     command.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
+def _add_aim(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--error", type=_part, metavar="E", default=0.01,
+        help="as 1%% or 0.01, of the largest exact field; default: 1%%",
+    )  # fmt: skip
+    command.add_argument(
+        "--quantity", choices=("displacement", "velocity", "stress", "energy"),
+        default="displacement", help="of which; default: displacement",
+    )  # fmt: skip
+
+
+def _part(text: str) -> float:
+    number = text.strip().removesuffix("%")
+    try:
+        value = float(number) / (100 if text.strip().endswith("%") else 1)
+    except ValueError:
+        value = nan
+    if not 0 < value <= 1:
+        raise argparse.ArgumentTypeError(
+            f"must be a part such as 1% or 0.01, above 0 and at most 100% (got {text!r})"
+        )
+    return value
+
+
 def _positive(text: str) -> int:
     if not text.isdecimal() or not 1 <= int(text) <= 2**31 - 1:
         raise argparse.ArgumentTypeError(f"must be a whole number from 1 on (got {text!r})")
@@ -123,6 +152,7 @@ def _with_command(words: list[str]) -> list[str]:
 def _first_plain_word(words: list[str]) -> int | None:
     takes_value = {
         "-o", "--output", "--set", "--device", "--precision", "--threads", "--frames", "--levels",
+        "--error", "--quantity",
     }  # fmt: skip
     skip = False
     for number, word in enumerate(words):
@@ -147,6 +177,11 @@ def _dispatch(options) -> int:
         changes.append(f"output.every={scene.time.end / options.frames!r}")
         scene = load_scene(options.scene, changes)
 
+    if options.command == "advise":
+        from .advise import advise, shipped
+
+        print(advise(scene, options.quantity, options.error, shipped()))
+        return 0
     from rich.console import Console
 
     console = Console(

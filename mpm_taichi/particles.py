@@ -12,8 +12,9 @@ from .materials import Material
 
 @dataclass(frozen=True)
 class BodyPoints:
-    """The particles of one body at the start: material; x, v [n, dim] (m, m/s), V0 [n] (m^dim); of a
-    body that starts deformed also its places before, X [n, dim] (m), and H = F - I [n, dim, dim]."""
+    """The particles of one body at the start: material; x, v [n, dim] (m, m/s), V0 [n] (m^dim); if
+    it is not 0 the velocity gradient L [n, dim, dim] (1/s); and of a body that starts deformed its
+    places before, X [n, dim] (m), and H = F - I [n, dim, dim]."""
 
     material: Material
     x: np.ndarray
@@ -21,6 +22,7 @@ class BodyPoints:
     V0: np.ndarray
     X: np.ndarray | None = None
     H: np.ndarray | None = None
+    L: np.ndarray | None = None
 
     @property
     def undeformed(self) -> np.ndarray:
@@ -28,8 +30,14 @@ class BodyPoints:
 
     @property
     def displacement_gradient(self) -> np.ndarray:
-        dim = self.x.shape[1]
-        return np.zeros((len(self.x), dim, dim)) if self.H is None else self.H
+        return self._zeros() if self.H is None else self.H
+
+    @property
+    def velocity_gradient(self) -> np.ndarray:
+        return self._zeros() if self.L is None else self.L
+
+    def _zeros(self):
+        return np.zeros((*self.x.shape, self.x.shape[1]))
 
 
 class Group:
@@ -62,9 +70,9 @@ class Group:
 
 class Particles:
     """x [m], H = F - I [-], m [kg], V0 [m^dim], id (place in the order of the scene), and the rows
-    that travel between particles and nodes (kernels/rows.py); where the scene needs them, half_width
-    [cells] for a basis that takes particles as extended, and X [m], the place before deformation,
-    for a body force that depends on it.
+    that travel between particles and nodes (kernels/rows.py); where the scene needs them,
+    half_width [cells] for a basis that takes particles as extended, and X [m], the place before
+    deformation, for a body force that depends on it.
 
     `lost` is the least id of a particle outside the domain, or the number of particles."""
 
@@ -72,7 +80,7 @@ class Particles:
         self.dim = bodies[0].x.shape[1]
         self.count = sum(len(body.x) for body in bodies)
         self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None)
-        self.transfer = transfer
+        self.transfer, self.basis, self.dx = transfer, basis, dx
         materials = list(dict.fromkeys(body.material for body in bodies))
         self.group_count = len(materials)
         kind = np.repeat([materials.index(body.material) for body in bodies],
@@ -123,13 +131,18 @@ class Particles:
         self.m.from_numpy(m)
         self.id.from_numpy(id)
         self.lost[None] = self.count
-        self.rows.from_numpy(self.gathered(m, v))
+        L = np.concatenate([body.velocity_gradient for body in bodies])[id]
+        self.rows.from_numpy(self.gathered(m, v, L))
 
-    def gathered(self, m, v):
-        """Rows as after a gather of the velocities v, with no affine motion and no gradient."""
+    def gathered(self, m, v, L):
+        """Rows as after a gather of velocities v and their gradient L, which serves as C too."""
         rows = np.zeros((self.count, self.layout.count, 4))
         rows[:, 0, : self.dim] = v
         rows[:, self.layout.pic, : self.dim] = v
+        inverse_moment = self.basis.inverse_moment or 1.0
+        for at, unit in (self.layout.moments, 1 / inverse_moment), (self.layout.gradient, 1.0):
+            for d, row in enumerate(at):
+                rows[:, row, : self.dim] = self.dx * unit * L[:, :, d]
         if self.transfer.increment:
             rows[:, 0, : self.dim] = m[:, None] * v
             rows[:, 0, self.dim] = m

@@ -31,12 +31,22 @@ def body_points(scene, index, X, V0) -> BodyPoints:
         u = scene.field(body.displacement)
         x, H = X + u.value(X), u.gradient(X)
         refuse_outside(x, f"bodies[{index}].displacement", body.name, scene.domain)
-    v = scene.field(body.velocity or still).value(X)
+    velocity = scene.field(body.velocity or still)
+    v, L = velocity.value(X), velocity.gradient(X)
     for key, values in (("velocity", v), ("displacement", x)):
         if not np.isfinite(values).all():
             bad = X[~np.isfinite(values).all(axis=1)][0].tolist()
             raise InputError(f"bodies[{index}].{key} ({body.name}): is no number at {bad}")
-    return BodyPoints(material, x, v, V0, X, H)
+    if H is not None:
+        F = H + np.eye(scene.dimension)
+        folded = ~(np.linalg.det(F) > 0)
+        if folded.any():
+            raise InputError(
+                f"bodies[{index}].displacement ({body.name}): turns the material inside out at "
+                f"{X[folded][0].tolist()}, where det(I + grad u) is not above 0"
+            )
+        L = L @ np.linalg.inv(F)
+    return BodyPoints(material, x, v, V0, X, H, L)
 
 
 class Simulation:

@@ -53,7 +53,10 @@ def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: in
     spin = np.zeros_like(F)
     if solver.transfer.affine:
         # A = m C, in the MLS form (where D is one number) plus a symmetric stress: no skew part.
-        moments = grid.dx**2 * values["D"][:, :, None] * values["A"].swapaxes(1, 2)
+        D = values["D"]
+        if solver.transfer.moments:
+            D = np.full_like(D, 1 / (solver.basis.inverse_moment or 1.0))
+        moments = grid.dx**2 * D[:, :, None] * values["A"].swapaxes(1, 2)
         spin = 0.5 * (moments - moments.swapaxes(1, 2))
     return Snapshot(
         time=time,

@@ -14,6 +14,7 @@ from .kernels.grid_update import grid_update
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.sort import sort
+from .kernels.start_moments import start_moments
 from .kernels.update_stress import update_stress
 from .kernels.wrap import wrap
 from .particles import Particles
@@ -47,6 +48,8 @@ class Solver:
         )  # fmt: skip
         self.gravity = ti.Vector.field(self.particles.dim, float, ())
         self.gravity[None] = list(gravity)
+        if transfer.moments and not basis.inverse_moment:
+            start_moments(self.particles, self.grid, basis)
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -82,8 +85,8 @@ class Solver:
             self.sorts += 1
 
     def step(self, time, dt, choose_dt):
-        """Advance from `time` by dt [s]; choose_dt(speed) gives the length of the next step from the
-        largest nodal speed [m/s].  Returns that length.
+        """Advance from `time` by dt [s]; choose_dt(speed) gives the length of the next step from
+        the largest nodal speed [m/s].  Returns that length.
 
         USL (update stress last) takes the velocity gradient L from the new velocities of the nodes,
         which makes F the gradient of the motion; its impulse is that of the next step.  USF (first)

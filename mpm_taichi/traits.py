@@ -14,8 +14,9 @@ MOMENTS, PLACES = 41, 2000
 
 class Traits(NamedTuple):
     """`dimension` counts the axes that matter (a periodic strip does not); `laws` are the types of
-    the materials; `across` is the smallest edge of a box around a body [cells], `motion` the
-    longest way of a particle [cells], `strain` the largest change of a principal stretch.
+    the materials; `per_axis` are particles per cell and axis, `across` is the smallest edge of a
+    box around a body [cells], `motion` the longest way of a particle [cells], `strain` the largest
+    change of a principal stretch.
 
     `known` tells whether motion and strain are those of an exact solution; else they are estimates:
 
@@ -28,11 +29,12 @@ class Traits(NamedTuple):
 
     dimension: int
     laws: tuple[str, ...]
-    per_cell: float
+    per_axis: float
     across: float
     motion: float
     strain: float
     walls: bool
+    bodies: int
     known: bool
 
 
@@ -52,11 +54,12 @@ def traits(scene) -> Traits:
     return Traits(
         dimension=max(1, scene.dimension - len(thin)),
         laws=tuple(used),
-        per_cell=float(np.mean([report.particles_per_cell for report in reports])),
+        per_axis=float(np.mean([r.particles_per_cell for r in reports]) ** (1 / scene.dimension)),
         across=float(across / dx),
         motion=motion / dx,
         strain=float(strain),
         walls=bool(scene.domain.rules),
+        bodies=len(scene.bodies),
         known=exact,
     )
 

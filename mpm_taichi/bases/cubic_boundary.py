@@ -13,5 +13,5 @@ class CubicBoundary(CubicBSpline):
     moment_vanishes = True
 
     @staticmethod
-    def steepness(half):
+    def steepness(half) -> float | None:
         return None

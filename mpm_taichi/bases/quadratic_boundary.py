@@ -16,5 +16,5 @@ class QuadraticBoundary(QuadraticBSpline):
     moment_vanishes = True
 
     @staticmethod
-    def steepness(half):
+    def steepness(half) -> float | None:
         return None

@@ -16,7 +16,7 @@ class QuadraticBSpline:
     bulk_limit = 1.03
 
     @staticmethod
-    def steepness(half):
+    def steepness(half) -> float | None:
         return 6.0
 
     @staticmethod

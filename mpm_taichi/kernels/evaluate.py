@@ -22,9 +22,9 @@ def evaluate_particles(
         x = particles.x[p]
         v = vector(particles.rows, p, 0, dim) / particles.m[p]
         A = columns(particles.rows, p, particles.layout.affine, dim) * g.inv_dx
-        still = ti.Matrix.zero(float, dim, dim)
-        base, a, w, dw = weigh(p, particles, grid, basis)
+        _base, a, w, _dw = weigh(p, particles, grid, basis)
         D = moment(w, a)
+        still = ti.Matrix.zero(float, dim, dim)
         H_same, s, tau = group.law.update(c, H, still, 0.0, load_state(group, p - begin))
         for d in ti.static(range(dim)):
             table[id, d] = x[d]
@@ -43,8 +43,8 @@ def evaluate_particles(
 
 def evaluate(particles, grid, basis):
     """x [m], v [m/s], D (moment of each axis, dx^2) [n, dim]; H, tau (Kirchhoff stress, Pa), A
-    (affine momentum, kg/s) [n, dim, dim]; psi (elastic energy per reference volume, J/m^3) and, in
-    plane strain, tau_zz [n]."""
+    (affine momentum, kg/s; if a basis has moments that vary, times D) [n, dim, dim]; psi (elastic
+    energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
     n, dim = particles.count, grid.dim
     table = np.zeros((n, 3 * dim + 3 * dim**2 + 2), particles.dtype)
     for group in particles.groups:

@@ -5,7 +5,7 @@ import taichi as ti
 from ..runtime import Template
 from ..stages import stage
 from .blocks import BLOCK, first_block
-from .stencil import index, line_slope, line_weight, moment, offset, weigh
+from .stencil import index, line_slope, line_weight, offset, weigh
 
 
 @ti.func
@@ -60,10 +60,7 @@ def gather_particle(
         else:
             particles.rows[p, 0] = v
         for d, row in ti.static(enumerate(particles.layout.moments)):
-            B_d = B[d] - a[d] * v
-            if ti.static(not basis.inverse_moment):
-                B_d /= moment(w, a)[d]
-            particles.rows[p, row] = B_d
+            particles.rows[p, row] = B[d] - a[d] * v
     for d, row in ti.static(enumerate(particles.layout.gradient)):
         particles.rows[p, row] = S[d]
     if ti.static(what == "all" and particles.layout.pic):

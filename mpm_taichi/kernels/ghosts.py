@@ -1,10 +1,10 @@
 """Stages 2b and 3b: nodes behind a wall are mirror images, and a periodic axis closes on itself.
 
-A wall reflects what is behind it: with k the distance from the wall in nodes and v_n the velocity
-across it, v_n(-k) = - v_n(k) and v_t(-k) = +- v_t(k), + where the rule lets material slide.  So what
-particles give to node -k belongs to node k, as if mirrored matter lay behind the wall; at k = 0 the
-rule itself acts (kernels/grid_update.py).  Zeroed nodes instead make a clamped beam too long and let
-a gas at rest stream.  A wall that material may leave does so only where its node is pressed on it.
+A wall reflects: with k the distance from the wall in nodes and v_n the velocity across it,
+v_n(-k) = - v_n(k) and v_t(-k) = +- v_t(k), + where the rule lets material slide.  So what particles
+give to node -k belongs to node k, as if mirrored matter lay behind the wall; at k = 0 the rule
+itself acts (kernels/grid_update.py).  Zeroed nodes instead make a clamped beam too long and let a
+gas at rest stream.  A wall that material may leave reflects only where its node is pressed on it.
 
 The axes are folded one after the other over whole planes, ghost nodes included: corners come right.
 """

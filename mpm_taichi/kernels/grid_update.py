@@ -35,6 +35,7 @@ def update_node(i, grid: Template, walls: Template, gravity: Template, dt):
             if ti.static(grid.increment):
                 v += ti.Vector([grid.node[i + grid.apart][d] / mass for d in range(grid.dim)])
             v = apply_walls(v, i, grid, walls)
+            v_old = apply_walls(v_old, i, grid, walls)
         else:
             ti.atomic_add(grid.cut[None], 1)
         for d in ti.static(range(grid.dim)):
@@ -68,7 +69,8 @@ def update_nodes(grid: Template, walls: Template, gravity: Template, dt: float, 
 
 @stage
 def grid_update(grid, walls, gravity, dt):
-    """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls.
+    """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls, which hold for
+    v_i^old = (m v)_i / m_i too: the velocity that a wall takes is no change of the motion.
 
     A node no heavier than the relative cut-off of its basis stands still and is counted in
     `grid.cut`.  On return a node holds (v, m), with `grid.increment` also v - v_old in the record

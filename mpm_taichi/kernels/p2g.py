@@ -4,7 +4,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .stencil import index, line_slope, line_weight, offset, weigh
+from .stencil import index, line_slope, line_weight, moment, offset, weigh
 
 
 @ti.func
@@ -45,6 +45,17 @@ def scatter(first, grid: Template, w, dw, q, A: Template, T: Template):
 
 
 @ti.func
+def affine_column(
+    p, row: Template, d: Template, particles: Template, D, basis: Template, transfer: Template
+):
+    """Column d of A; where D varies, the place of the scatter gives it."""
+    column = particles.rows[p, row]
+    if ti.static(transfer.moments and not basis.inverse_moment):
+        column /= D[d]
+    return column
+
+
+@ti.func
 def scatter_particle(
     p, particles: Template, grid: Template, basis: Template, transfer: Template, what: Template
 ):
@@ -58,7 +69,11 @@ def scatter_particle(
         force = 0.0 * q
         if ti.static(what == "all" and particles.layout.force):
             force = particles.rows[p, particles.layout.force]
-        A = [particles.rows[p, row] for row in particles.layout.affine]
+        D = moment(w, a)
+        A = [
+            affine_column(p, row, d, particles, D, basis, transfer)
+            for d, row in enumerate(particles.layout.affine)
+        ]
         T = [particles.rows[p, row] for row in particles.layout.gradient if what == "all"]
         if ti.static(A):
             for d in ti.static(range(grid.dim)):

@@ -7,6 +7,7 @@ from ..stages import stage
 from .blocks import BLOCK, first_block
 from .g2p import g2p
 from .ghosts import fill_ghosts, fold_ghosts
+from .grid_update import apply_walls
 from .p2g import p2g
 from .rows import put_vector, vector
 
@@ -36,8 +37,9 @@ def begin_or_end_all(particles: Template, dim: Template, end: Template, threads:
 
 
 @ti.kernel
-def average(grid: Template, empty: Template, threads: int):
-    """Residual momentum to velocity at the nodes, or nothing at all."""
+def average(grid: Template, walls: Template, empty: Template, threads: int):
+    """Residual momentum to velocity at the nodes, which a wall holds as it holds that of the
+    particles; or nothing at all."""
     for counter in range(512 * threads):
         if counter % 512 == 0:
             begin, end = grid.active[0], grid.active[1]
@@ -48,9 +50,11 @@ def average(grid: Template, empty: Template, threads: int):
                 for i in range(start, ti.min(start + BLOCK, end)):
                     mass = grid.node[i][grid.dim]
                     lanes = ti.Vector.zero(float, 4)
-                    if ti.static(not empty):
-                        if mass > grid.constants[None].mass_cutoff:
-                            lanes = grid.node[i + grid.apart] / mass
+                    if not empty and mass > grid.constants[None].mass_cutoff:
+                        R = ti.Vector([grid.node[i + grid.apart][d] for d in range(grid.dim)])
+                        R = apply_walls(R / mass, i, grid, walls)
+                        for d in ti.static(range(grid.dim)):
+                            lanes[d] = R[d]
                     grid.node[i + grid.apart] = lanes
 
 
@@ -59,13 +63,13 @@ def take_residual(particles, grid, basis, transfer, walls, gravity, order):
     """R <- (1 - S S+) R, order - 1 times, from R = v_FLIP - sum_i w_ip v_i = (1 - S S+) v_old.
 
     On return row 0 holds (m (v_FLIP - R), m)."""
-    threads = grid.threads
+    threads, firm = grid.threads, tuple(wall for wall in walls if not wall.rule.lets_go)
     begin_or_end_all(particles, grid.dim, False, threads)
     for _ in range(order - 1):
-        average(grid, True, threads)
+        average(grid, firm, True, threads)
         p2g(particles, grid, basis, transfer, "residual")
         fold_ghosts(grid, walls, gravity, 0.0, updated=True)
-        average(grid, False, threads)
+        average(grid, firm, False, threads)
         fill_ghosts(grid, walls, gravity)
         g2p(particles, grid, basis, transfer, "residual")
     begin_or_end_all(particles, grid.dim, True, threads)

@@ -7,8 +7,9 @@ Lengths in rows are in cells.  Row 0 and the rows of the layout change meaning t
   gathered    (v, .)    moments B / dx       sums v dw dx      -
   with an increment: row 0 stays (m v, m), and         v before the increment, sum_i w_i v_i
 
-Where D varies, the moments are divided by it when they are gathered.  `layout.residual` holds
-(m R, 0) of a filtered transfer, `layout.force` the impulse (dt m b, 0) of a body force.
+Where D varies, D^-1 is left to the scatter, which has the D of its own place: so angular momentum
+is kept (Jiang et al. 2015).  `layout.residual` holds (m R, 0) of a filtered transfer and
+`layout.force` the impulse (dt m b, 0) of a body force.
 """
 
 import taichi as ti

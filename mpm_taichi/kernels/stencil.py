@@ -57,7 +57,7 @@ def first_node(x, grid: Template, basis: Template):
 
 @ti.func
 def weigh(p, particles: Template, grid: Template, basis: Template):
-    """First node of the stencil of particle p, a = xi - that node, weights and slopes w, dw[k, d]."""
+    """First node of the stencil of particle p, a = xi - that node, weights w, slopes dw [k, d]."""
     base = first_node(particles.x[p], grid, basis)
     a = grid_coordinate(particles.x[p], grid) - base
     half = 0.0

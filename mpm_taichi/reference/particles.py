@@ -8,9 +8,9 @@ from . import materials
 
 
 class Particles:
-    """x [m], v [m/s], C [1/s], H = F - I, m [kg], V0 [m^dim], X [m]; T = - dt V0 tau [kg m^2/s^2], A
-    [kg/s] and the impulse force [kg m/s], what the next P2G scatters; v_pic, dv, B, S, what the last
-    G2P gathered; R, the residual velocity of a filter."""
+    """x [m], v [m/s], H = F - I, m [kg], V0 [m^dim], X [m]; A [kg/s], T = - dt V0 tau [kg m^2/s],
+    and the impulse `force` [kg m/s], which P2G scatters; v_pic, dv, B, S, which the last G2P has
+    gathered; R, the residual velocity of a filter."""
 
     def __init__(self, bodies, basis, transfer, dx):
         self.x = np.concatenate([body.x for body in bodies])
@@ -21,7 +21,9 @@ class Particles:
         self.H = np.concatenate([body.displacement_gradient for body in bodies])
         self.count, self.dim = self.x.shape
         self.half_width = 0.5 * self.V0 ** (1 / self.dim) / dx
-        self.A, self.T, self.B, self.S = np.zeros((4, self.count, self.dim, self.dim))
+        self.A, self.T = np.zeros((2, self.count, self.dim, self.dim))
+        self.S = np.concatenate([body.velocity_gradient for body in bodies])
+        self.B = self.S * dx**2 / (basis.inverse_moment or 1.0)
         self.v_pic = self.v.copy()
         self.dv, self.force, self.R = np.zeros((3, self.count, self.dim))
         self.lost = self.count

@@ -12,6 +12,7 @@ from .kernels.ghosts import fill_ghosts, fold_ghosts
 from .kernels.grid_update import grid_update
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
+from .kernels.start_moments import start_moments
 from .kernels.update_stress import update_stress
 from .kernels.wrap import wrap
 from .particles import Particles
@@ -32,6 +33,8 @@ class Solver:
             cells, dx, basis, self._mass_cutoff(mass_cutoff, bodies, cells, dx), walls, periodic
         )
         self.gravity = np.array(gravity, float)
+        if transfer.moments and not basis.inverse_moment:
+            start_moments(self.particles, self.grid, basis)
 
     def _mass_cutoff(self, part, bodies, cells, dx):
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight

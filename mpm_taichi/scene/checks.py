@@ -114,10 +114,10 @@ def moment(method) -> Iterator[Found]:
 
 def blend(method) -> Iterator[Found]:
     """One way to say how much PIC there is in FLIP."""
-    if getattr(method.transfer, "ratio", None) is not None:
-        if method.transfer.relaxation_time is not None:
-            text = "must not be given with relaxation_time: each says how much PIC is blended in"
-            yield ("method", "transfer", "ratio"), text
+    given = [getattr(method.transfer, key, None) for key in ("ratio", "relaxation_time")]
+    if None not in given:
+        text = "must not be given with relaxation_time: each says how much PIC is blended in"
+        yield ("method", "transfer", "ratio"), text
 
 
 def stress_update(method) -> Iterator[Found]:

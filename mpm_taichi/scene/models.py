@@ -17,7 +17,6 @@ from ..shapes import Shape
 from ..transfers import APICChoice, FLIPChoice, Transfer, XPICChoice
 from .checks import across
 
-
 VectorField = Annotated[list[Formula], Field(min_length=2, max_length=3)]
 """A number or a formula for each axis."""
 

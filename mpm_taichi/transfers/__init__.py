@@ -13,13 +13,12 @@ the nodes return, is all that a transfer says:
   M_d = d lam + 2 mu (numerics.md 4.1) and half is its half width [cells]; None where there is none
   above zero
 - `affine_momentum(m, C, T, D_inverse)`  A [kg/s], linear in (m, D_inverse)
-- `velocity(v_flip, v_pic, alpha)`       the new velocity of the particle [m/s], alpha being the part
-  of FLIP where there is a choice
+- `velocity(v_flip, v_pic, alpha)`       the new velocity of the particle [m/s], alpha being the
+  part of FLIP where there is a choice
 - `gradients(B, S, D_inverse)`           C and L [1/s]
 """
 
 from math import exp
-
 from typing import Annotated, Literal
 
 from pydantic import Field

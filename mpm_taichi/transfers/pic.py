@@ -16,7 +16,7 @@ class PIC:
     filtered = False
 
     @staticmethod
-    def isolated_limit(basis, half):
+    def isolated_limit(basis, half) -> float | None:
         """sqrt(2 / H)."""
         steepness = basis.steepness(half)
         return sqrt(2 / steepness) if steepness else None

@@ -18,7 +18,8 @@ DX = 0.1
 
 def bodies(rng, dim, ends=()):
     """Clouds of two unlike materials that overlap and fly at each other, beside walls or, along the
-    axes `ends`, across both ends of the box; the second material's body lies between the two bodies of the first in the order of the scene.
+    axes `ends`, across both ends of the box; the body of the second material lies between the two
+    of the first in the order of the scene.
 
     No particle, and no face of one, is within a twentieth of a cell of a plane through nodes or
     midway between them, where a stencil begins and ends: nodes of almost no mass magnify the
@@ -39,7 +40,8 @@ def bodies(rng, dim, ends=()):
             xi[:, d] = (xi[:, d] - 0.5 * CELLS[dim][d]) % CELLS[dim][d]
         mine = np.flatnonzero(clear)[: int(rng.integers(8, 14))]
         v = rng.normal(size=(len(mine), dim)) + sign * np.arange(2, dim + 2)
-        yield BodyPoints(material, DX * xi[mine], v, V0[mine, 0])
+        L, H = rng.normal(size=(2, len(mine), dim, dim))
+        yield BodyPoints(material, DX * xi[mine], v, V0[mine, 0], H=0.05 * H, L=10 * L)
 
 
 def walls(dim, rules):

@@ -10,7 +10,15 @@ import pytest
 
 from mpm_taichi.expressions import Expressions
 from mpm_taichi.kernels import (
-    clear, evaluate, g2p, ghosts, grid_update, p2g, sort, update_stress, wrap,
+    clear,
+    evaluate,
+    g2p,
+    ghosts,
+    grid_update,
+    p2g,
+    sort,
+    update_stress,
+    wrap,
 )  # fmt: skip
 from mpm_taichi.reference.kernels import clear as twin_clear
 from mpm_taichi.reference.kernels import evaluate as twin_evaluate

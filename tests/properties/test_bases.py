@@ -74,8 +74,8 @@ def test_slopes_are_derivatives(exact, rng, basis):
 
 @pytest.mark.parametrize("basis", BASES)
 def test_moment_is_what_the_basis_says(exact, rng, basis):
-    """D = sum w (i - xi)^2 [dx^2]: constant 1 / inverse_moment, or a function of the position, which
-    may have zeros."""
+    """D = sum w (i - xi)^2 [dx^2]: constant 1 / inverse_moment, or a function of place, which may
+    have zeros."""
     xi = coordinates(rng)
     first, w, _ = table(basis, xi)
     r = first[:, None, :] + np.arange(basis.support)[None, :, None] - xi[:, None, :]

@@ -5,6 +5,7 @@ import pytest
 
 from mpm_taichi.bases import QuadraticBSpline
 from mpm_taichi.kernels.clear import clear
+from mpm_taichi.kernels.evaluate import evaluate
 from mpm_taichi.kernels.g2p import g2p
 from mpm_taichi.kernels.grid_update import grid_update
 from mpm_taichi.kernels.p2g import p2g
@@ -26,6 +27,8 @@ def gathered(mpm):
     rows = P.to_numpy("rows")
     columns = lambda at: rows[:, list(at), :dim].swapaxes(1, 2)  # noqa: E731
     C = columns(P.layout.moments) * G.dx * (mpm.basis.inverse_moment or 1.0) / G.dx**2
+    if mpm.transfer.moments and not mpm.basis.inverse_moment:
+        C /= evaluate(P, G, mpm.basis)["D"][:, None, :]
     S = columns(P.layout.gradient) / G.dx
     return rows[:, P.layout.pic, :dim], C, S
 
@@ -39,9 +42,11 @@ def scattering(rng, dim, basis, transfer, field):
     mpm.start(0.0)
     if transfer.affine:
         rows = mpm.particles.rows.to_numpy()
-        m = mpm.particles.m.to_numpy()
+        m, D = mpm.particles.m.to_numpy(), np.ones_like(x)
+        if transfer.moments and not basis.inverse_moment:
+            D = evaluate(mpm.particles, mpm.grid, basis)["D"]
         for d, row in enumerate(mpm.particles.layout.affine):
-            rows[:, row, :dim] = m[:, None] * M[:, d] * mpm.grid.dx
+            rows[:, row, :dim] = (m * D[:, d])[:, None] * M[:, d] * mpm.grid.dx
         mpm.particles.rows.from_numpy(rows)
     return mpm, x
 

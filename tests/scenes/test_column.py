@@ -1,4 +1,4 @@
-"""The column under its own weight: mean error of the stress at the end over rho0 g l0 = 39.24 kPa."""
+"""The column under its own weight: mean error of the stress at the end over 39.24 kPa."""
 
 import pytest
 

@@ -205,7 +205,8 @@ MATERIALS_AND_BODIES = [
     (
         "type: ball,",
         "type: bal,",
-        "19:13: bodies[0].shape.type: must be one of ball, box, ring (got 'bal'); did you mean 'ball'?",
+        "19:13: bodies[0].shape.type: must be one of ball, box, ring (got 'bal'); did you mean "
+        "'ball'?",
     ),
     ("type: ball, ", "", "19:5: bodies[0].shape.type: is required: ball or box or ring"),
     (
@@ -321,7 +322,7 @@ ACROSS_SECTIONS = [
     ),
     (
         "gravity: [0, -9.81]",
-        "body_force: [sin(X), \"R*2\"]",
+        'body_force: [sin(X), "R*2"]',
         "8:22: body_force[1]: unknown name 'R'; there are X, Y, pi, t, x, y",
     ),
     (

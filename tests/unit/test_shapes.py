@@ -36,7 +36,7 @@ def test_every_shape_has_an_example():
     list(zip(EXAMPLES, [pi * 0.49, 4 / 3 * pi * 0.343, 0.225, 0.135, pi * 0.33], strict=True)),
 )
 def test_volume(shape, volume):
-    """pi r^2, 4/3 pi r^3, products of edges, pi (R^2 - r^2), to the rounding of a few operations."""
+    """pi r^2, 4/3 pi r^3, products of edges, pi (R^2 - r^2), to the rounding of a few steps."""
     assert shape.volume() == pytest.approx(volume, rel=1e-14)
 
 

@@ -40,7 +40,7 @@ def restart(solver, x, v, V0):
     if solver.basis.extended:
         particles.half_width.from_numpy(0.5 * V0 ** (1 / particles.dim) / solver.grid.dx)
     particles.H.fill(0.0)
-    particles.rows.from_numpy(particles.gathered(m, v))
+    particles.rows.from_numpy(particles.gathered(m, v, np.zeros_like(particles.to_numpy("H"))))
     solver.drift = np.inf
 
 

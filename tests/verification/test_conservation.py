@@ -6,10 +6,10 @@ Sub-cell offsets are drawn at run time.  Bounds: numerics.md, chapter 6: n steps
 import numpy as np
 import pytest
 
-from mpm_taichi.bases import QuadraticBSpline
+from mpm_taichi.bases import GIMP, CubicBSpline, Linear, QuadraticBSpline
 from mpm_taichi.kernels.clear import clear
 from mpm_taichi.kernels.p2g import p2g
-from mpm_taichi.transfers import APIC, FLIP, MLS, PIC
+from mpm_taichi.transfers import APIC, FLIP, MLS, PIC, TPIC
 
 from ..cases import CASES
 from .motions import JELLY, advance, ball_points, momenta, snapshot, solver
@@ -47,19 +47,43 @@ def test_mass_and_momentum(fast, rng, dim, basis, transfer):
     assert nodes == pytest.approx(snapshot(mpm).mass.sum(), rel=1e-13)
 
 
-@pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize("transfer", [MLS, APIC])
-def test_spinning_ball_keeps_angular_momentum(fast, rng, dim, transfer):
+@pytest.mark.parametrize(
+    ("dim", "basis", "transfer"),
+    [
+        (2, QuadraticBSpline, MLS),
+        (2, QuadraticBSpline, APIC),
+        (2, GIMP, APIC),
+        (2, CubicBSpline, MLS),
+        (3, QuadraticBSpline, MLS),
+        (3, QuadraticBSpline, APIC),
+    ],
+)
+def test_spinning_ball_keeps_angular_momentum(fast, rng, dim, basis, transfer):
     """APIC conserves sum x x m v + sum m axial(B) where the stencil is whole (Jiang et al. 2015):
     1e-11 after 400 steps of a soft ball that widens as it spins."""
-    mpm, _, _ = start(rng, dim, QuadraticBSpline, transfer, omega=2.0)
+    mpm, _, _ = start(rng, dim, basis, transfer, omega=2.0)
     mpm.start(1e-3)
-    mpm.step(0.0, 1e-3, lambda speed: 1e-3)  # the affine velocity starts at 0 and takes a step to form
+    mpm.step(0.0, 1e-3, lambda speed: 1e-3)  # the affine velocity starts at 0 and is formed here
     _, before = momenta(mpm)
     for _ in range(400):
         mpm.step(0.0, 1e-3, lambda speed: 1e-3)
     _, after = momenta(mpm)
     assert np.abs(after - before).max() < 1e-11 * np.abs(before).max()
+
+
+@pytest.mark.parametrize("basis", [Linear, QuadraticBSpline])
+def test_tpic_keeps_the_angular_momentum_of_rigid_motion(fast, rng, basis):
+    """TPIC carries L instead of moments, and sum m axial(L D) is the angular momentum of affine
+    motion alone: 1e-11 per step for a ball that spins as a rigid body, started with its L."""
+    mpm, x, v = start(rng, 2, basis, TPIC, omega=2.0)
+    L = np.tile([[0.0, -2.0], [2.0, 0.0]], (len(x), 1, 1))
+    rows = mpm.particles.gathered(mpm.particles.to_numpy("m"), v, L)
+    mpm.particles.rows.from_numpy(rows)
+    mpm.start(1e-5)
+    _, before = momenta(mpm)
+    mpm.step(0.0, 1e-5, lambda speed: 1e-5)
+    _, after = momenta(mpm)
+    assert np.abs(after - before).max() < 1e-8 * np.abs(before).max()
 
 
 def test_pic_loses_angular_momentum(fast, rng):

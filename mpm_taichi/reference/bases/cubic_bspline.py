@@ -15,7 +15,7 @@ class CubicBSpline:
     bulk_limit = 1.37
 
     @staticmethod
-    def steepness(half):
+    def steepness(half) -> float | None:
         return 3.14
 
     @staticmethod

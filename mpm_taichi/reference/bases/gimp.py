@@ -16,7 +16,7 @@ class GIMP:
     bulk_limit = 0.76
 
     @staticmethod
-    def steepness(half):
+    def steepness(half) -> float | None:
         return 1 / (1 - half) + 2 / half
 
     @staticmethod

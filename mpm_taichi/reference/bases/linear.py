@@ -15,7 +15,7 @@ class Linear:
     bulk_limit = 0.76
 
     @staticmethod
-    def steepness(half):
+    def steepness(half) -> float | None:
         return None
 
     @staticmethod

@@ -7,8 +7,8 @@ from .stencil import moment, weigh
 
 def evaluate(particles, grid, basis):
     """x [m], v [m/s], D (moment of each axis, dx^2) [n, dim]; H, tau (Kirchhoff stress, Pa), A
-    (affine momentum, kg/s) [n, dim, dim]; psi (elastic energy per reference volume, J/m^3) and, in
-    plane strain, tau_zz [n]."""
+    (affine momentum, kg/s; if a basis has moments that vary, times D) [n, dim, dim]; psi (elastic
+    energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
     D = np.zeros_like(particles.x)
     for p in range(particles.count):
         _, a, w, _ = weigh(p, particles, grid, basis)

@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from .stencil import moment, stencil, weigh
+from .stencil import stencil
 
 
 def g2p(particles, grid, basis, transfer, what="all"):
-    """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T (times D^-1 where D varies),
-    S_p = sum_i v_i grad w_ip^T, and with `transfer.increment` the change
-    sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all" or for the "gradient" S_p; or it is
-    the "residual" of a filter, R_p -= sum_i w_ip R_i."""
+    """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
+    with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all"
+    or for the "gradient" S_p; or it is the "residual" of a filter, R_p -= sum_i w_ip R_i."""
     if what == "residual":
         for p in range(particles.count):
             for i, _, w, _ in stencil(p, particles, grid, basis):
@@ -27,6 +26,3 @@ def g2p(particles, grid, basis, transfer, what="all"):
                 particles.B[p] += w * np.outer(grid.v[i], r)
                 if transfer.increment:
                     particles.dv[p] += w * (grid.v[i] - grid.v_old[i])
-        if what == "all" and basis.inverse_moment is None and transfer.moments:
-            _, a, w, _ = weigh(p, particles, grid, basis)
-            particles.B[p] /= moment(w, a)

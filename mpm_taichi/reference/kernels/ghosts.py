@@ -1,7 +1,7 @@
 """Stages 2b and 3b: nodes behind a wall are mirror images, and a periodic axis closes on itself.
 
-v_n(-k) = - v_n(k) and v_t(-k) = +- v_t(k), + where the rule lets material slide; a wall that lets go
-does so where its node is not pressed on it."""
+v_n(-k) = - v_n(k) and v_t(-k) = +- v_t(k), + where the rule lets material slide; a wall that lets
+go reflects only where its node is pressed on it."""
 
 import numpy as np
 

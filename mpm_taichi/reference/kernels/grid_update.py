@@ -17,14 +17,16 @@ def apply_walls(v, i, grid, walls):
 
 
 def grid_update(grid, walls, gravity, dt):
-    """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls.
+    """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls, which hold for
+    v_i^old = (m v)_i / m_i too: the velocity that a wall takes is no change of the motion.
 
     A node no heavier than the cut-off stands still and is counted."""
     for i in np.ndindex(grid.shape):
         if grid.m[i] > grid.mass_cutoff:
-            grid.v_old[i] = grid.mv[i] / grid.m[i]
-            v = grid.v_old[i] + dt * gravity + grid.impulse[i] / grid.m[i]
+            v_old = grid.mv[i] / grid.m[i]
+            v = v_old + dt * gravity + grid.impulse[i] / grid.m[i]
             grid.v[i] = apply_walls(v, i, grid, walls)
+            grid.v_old[i] = apply_walls(v_old, i, grid, walls)
         elif grid.m[i] > 0:
             grid.cut += 1
     grid.speed_squared = (grid.v**2).sum(axis=-1).max()

@@ -30,7 +30,7 @@ def first_node(x, grid, basis):
 
 
 def weigh(p, particles, grid, basis):
-    """First node of the stencil of particle p, a = xi - that node, weights and slopes w, dw[k, d]."""
+    """First node of the stencil of particle p, a = xi - that node, weights w, slopes dw [k, d]."""
     base = first_node(particles.x[p], grid, basis)
     a = particles.x[p] / grid.dx + grid.ghost - base
     half = particles.half_width[p]

@@ -14,7 +14,7 @@ class APIC:
     filtered = False
 
     @staticmethod
-    def isolated_limit(basis, half):
+    def isolated_limit(basis, half) -> float | None:
         """sqrt(2 / (H - D^-1 / 2)); where D varies without its second term, which is safe."""
         return sqrt(2 / (basis.steepness(half) - (basis.inverse_moment or 0.0) / 2))
 

@@ -12,7 +12,7 @@ class MLS(APIC):
     gradient = False
 
     @staticmethod
-    def isolated_limit(basis, half):
+    def isolated_limit(basis, half) -> float | None:
         """2 / sqrt(D^-1)."""
         return 2 / sqrt(basis.inverse_moment)
 

@@ -12,7 +12,7 @@ class TPIC(APIC):
     moments = False
 
     @staticmethod
-    def isolated_limit(basis, half):
+    def isolated_limit(basis, half) -> float | None:
         """2 / sqrt(H): a lone particle keeps L, so it is the oscillator of MLS with H for D^-1."""
         steepness = basis.steepness(half)
         return 2 / sqrt(steepness) if steepness else None
