@@ -1,12 +1,20 @@
 """Every pair of basis and transfer that works together.
 
-CASES has every basis and every transfer in 2D and some in 3D; ALL_CASES, for the parity with the
-twin, every pair in 2D and every basis and transfer in 3D.  The methods of the first scenes and one
-of each kind in 2D are in the fast tier."""
+CASES has every basis and every kind of transfer in 2D, the first methods in 3D; ALL_CASES, for the
+parity with the twin, every basis and every transfer in 2D and 3D, and all pairs in a campaign.  The
+methods of the first scenes and one of each kind in 2D are in the fast tier."""
 
 import pytest
 
-from mpm_taichi.bases import BASES, GIMP, CubicBoundary, Linear, QuadraticBSpline
+from mpm_taichi.bases import (
+    BASES,
+    GIMP,
+    CubicBoundary,
+    CubicBSpline,
+    Linear,
+    QuadraticBoundary,
+    QuadraticBSpline,
+)  # fmt: skip
 from mpm_taichi.transfers import APIC, FLIP, MLS, TPIC, TRANSFERS, XPIC
 
 
@@ -28,14 +36,18 @@ EACH = [
 
 
 def _case(dim, basis, transfer):
-    fast = (basis, transfer) in FIRST or (dim == 2 and (basis, transfer) in KINDS)
+    pair = (basis, transfer)
+    marks = []
+    if not (pair in FIRST or (dim == 2 and pair in KINDS)):
+        marks = [pytest.mark.slow]
+    if pair not in EACH:
+        marks.append(pytest.mark.campaign)
     return pytest.param(
-        dim, basis, transfer,
-        id=f"{dim}D-{basis.name}-{transfer.__name__}",
-        marks=[] if fast else [pytest.mark.slow],
-    )  # fmt: skip
+        dim, basis, transfer, id=f"{dim}D-{basis.name}-{transfer.__name__}", marks=marks
+    )
 
 
-CASES = [_case(2, *pair) for pair in EACH] + [_case(3, *pair) for pair in [*FIRST, (GIMP, TPIC)]]
+SOME = [*FIRST, *KINDS, (CubicBSpline, TPIC), (QuadraticBoundary, TPIC)]
+CASES = [_case(2, *pair) for pair in SOME] + [_case(3, *pair) for pair in FIRST]
 ALL_CASES = [_case(2, *pair) for pair in PAIRS] + [_case(3, *pair) for pair in EACH]
 """(dim, basis, transfer), for `pytest.mark.parametrize`."""

@@ -19,10 +19,12 @@ STEPS = 20
 def cloud(rng, dim):
     """A jittered lattice of two per cell and axis in the middle of the unit box, a tenth of it left
     out, with random velocities and volumes.  (Points as random as that would leave hat functions
-    nodes of almost no mass, which magnify rounding errors.)"""
+    nodes of almost no mass, which magnify rounding errors: a tenth of a cell is kept.)"""
     h = 0.5 / CELLS[dim]
     lattice = np.indices((6,) * dim).reshape(dim, -1).T + 0.5 + 0.3 * (rng.random(dim) - 0.5)
-    x = 0.4 + h * (lattice + 0.3 * (rng.random(lattice.shape) - 0.5))
+    x = round(0.4 * CELLS[dim]) / CELLS[dim] + h * (
+        lattice + 0.3 * (rng.random(lattice.shape) - 0.5)
+    )
     x = x[rng.random(len(x)) < 0.9]
     return x, rng.normal(size=x.shape), h**dim * (0.5 + rng.random(len(x)))
 
@@ -76,8 +78,8 @@ def test_translation_by_a_cell(exact, rng, dim):
 )
 def test_galilean_pair(fast, basis, transfer):
     """A ball that breathes at rest, and the same ball on its way through three cells: the motion
-    about its middle is the same but for the discretization, 10 % of the largest displacement (the ball
-    is 3.5 cells in radius; splines stay below 5 %)."""
+    about its middle is the same but for the discretization, 10 % of the largest displacement for a
+    ball 3.5 cells in radius (splines stay below 5 %)."""
     x, V0 = ball_points(2, CELLS[2], 0.22, -0.15)
     breathing = 3.0 * (x - x.mean(axis=0))
     mpm = solver(x, breathing, V0, CELLS[2], basis, transfer)

@@ -29,6 +29,7 @@ def test_apic_keeps_it(force):
     assert np.abs(kept - 1).max() < 1e-11
 
 
+@pytest.mark.campaign
 @pytest.mark.slow
 def test_tpic_keeps_it_but_for_the_rate_of_strain():
     """TPIC scatters the gradient sum v_i dw_i^T, whose moments are those of the nodes but for terms
@@ -38,6 +39,7 @@ def test_tpic_keeps_it_but_for_the_rate_of_strain():
     assert 1e-7 < np.abs(kept - 1).max() < 1e-4
 
 
+@pytest.mark.campaign
 @pytest.mark.slow
 def test_flip_loses_some():
     """6 % in five revolutions (numerics.md 7 %), and ten times as much with 1 % of PIC per step."""
@@ -47,6 +49,7 @@ def test_flip_loses_some():
     assert blend[-1] == pytest.approx(0.616, abs=0.05)
 
 
+@pytest.mark.campaign
 @pytest.mark.slow
 def test_pic_loses_all():
     """99.9 % in the first revolution."""

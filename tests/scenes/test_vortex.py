@@ -37,7 +37,7 @@ def test_body_force_and_scale():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("force", ["mls", "gradient"])
+@pytest.mark.parametrize("force", ["mls", pytest.param("gradient", marks=pytest.mark.campaign)])
 def test_cubic_splines_follow_it(force):
     """40 cells per meter, 5 x 5 particles per cell: at most 3 % at t = 0.5 and 5 % at t = 1."""
     middle, end = errors(f"method.transfer.force={force}")

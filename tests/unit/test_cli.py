@@ -275,7 +275,10 @@ def test_a_library_that_is_missing(tmp_path):
     [
         (["rnu", "x.yaml"], "'rnu' is neither a command nor a .yaml file; did you mean 'run'?"),
         (["chekc", "x.yaml"], "did you mean 'check'?"),
-        (["x.txt"], "'x.txt' is neither a command nor a .yaml file (run, check, converge, schema)"),
+        (
+            ["x.txt"],
+            "'x.txt' is neither a command nor a .yaml file (run, check, converge, advise, schema)",
+        ),
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),
         ([], "the following arguments are required: COMMAND"),
