@@ -105,12 +105,14 @@ def test_steps_and_stages_equal_the_twin(exact, rng, dim, basis, transfer):
 
 
 ORDERS = [
-    pytest.param(dim, order, transfer, id=f"{dim}D-{order}-{transfer}",
-                 marks=[] if dim == 2 and transfer == "FLIP" else [pytest.mark.slow])
+    pytest.param(
+        dim, order, transfer, id=f"{dim}D-{order}-{transfer}",
+        marks=[pytest.mark.campaign, pytest.mark.slow] if transfer not in ("FLIP", "TPIC")
+        or (dim == 3 and transfer == "TPIC") else [pytest.mark.slow] if dim == 3 else [],
+    )
     for dim in (2, 3)
     for order in ("musl", "usf")
     for transfer in ("PIC", "FLIP", "APIC", "TPIC", "XPIC")
-    if dim == 2 or transfer in ("FLIP", "TPIC")
 ]  # fmt: skip
 
 

@@ -27,7 +27,9 @@ def error(method, *changes):
 @pytest.mark.parametrize(
     "method",
     [
-        "{basis: quadratic, transfer: {type: apic, force: mls}}",
+        pytest.param(
+            "{basis: quadratic, transfer: {type: apic, force: mls}}", marks=pytest.mark.campaign
+        ),
         "{basis: gimp, transfer: {type: flip}}",
     ],
 )
