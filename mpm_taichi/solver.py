@@ -44,7 +44,7 @@ class Solver:
         )
         self.grid = Grid(
             cells, dx, basis, self.particles.group_count, transfer.increment,
-            self._mass_cutoff(mass_cutoff, bodies, cells, dx), walls, periodic, threads, atomic,
+            self._mass_cutoff(mass_cutoff, bodies, cells), walls, periodic, threads, atomic,
         )  # fmt: skip
         self.gravity = ti.Vector.field(self.particles.dim, float, ())
         self.gravity[None] = list(gravity)
@@ -53,7 +53,7 @@ class Solver:
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
-    def _mass_cutoff(self, part, bodies, cells, dx):
+    def _mass_cutoff(self, part, bodies, cells):
         """`part` of the lightest particle's mass [kg].  Not given: 0 for smooth bases.  Hat
         functions have gradients that stay where the weight goes to 0, so a weight of the size of
         the rounding error of x / dx would take a full force."""

@@ -30,13 +30,13 @@ class Solver:
         self.flip_part, self.filter_order = flip_part or (lambda dt: 1.0), filter_order
         self.particles = Particles(bodies, basis, transfer, dx)
         self.grid = Grid(
-            cells, dx, basis, self._mass_cutoff(mass_cutoff, bodies, cells, dx), walls, periodic
+            cells, dx, basis, self._mass_cutoff(mass_cutoff, bodies, cells), walls, periodic
         )
         self.gravity = np.array(gravity, float)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
 
-    def _mass_cutoff(self, part, bodies, cells, dx):
+    def _mass_cutoff(self, part, bodies, cells):
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight
         where gradients do not vanish with the weight."""
         if part is None:

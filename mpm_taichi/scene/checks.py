@@ -11,13 +11,10 @@ from sys import float_info
 from typing import Any
 
 from ..bases import BASES
-from ..expressions import Expressions
-from ..formulas import check_name, parse
 from ..meshes import MeshFile
 from ..model import Model
-from .wording import shown, suggestion
-
-Found = tuple[tuple[str | int, ...], str]
+from .formula_checks import body_force, definitions, exact, formulas
+from .wording import Found, shown, suggestion, wrong_length
 
 MOST_CELLS = 2**31 - 1
 
@@ -35,7 +32,7 @@ def cells(domain) -> Iterator[Found]:
     """One count per axis, equal edges to 1e-9, and few enough to be numbered."""
     place = ("domain", "cells")
     if len(domain.cells) != domain.dimension:
-        yield place, _wrong_length(domain.cells, domain)
+        yield place, wrong_length(domain.cells, domain)
         return
     edges = [size / count for size, count in zip(domain.size, domain.cells, strict=True)]
     if min(edges) < float_info.min:
@@ -145,7 +142,7 @@ def interval(time, output) -> Iterator[Found]:
 
 def gravity(domain, gravity) -> Iterator[Found]:
     if gravity is not None and len(gravity) != domain.dimension:
-        yield ("gravity",), _wrong_length(gravity, domain)
+        yield ("gravity",), wrong_length(gravity, domain)
 
 
 def names(bodies) -> Iterator[Found]:
@@ -200,7 +197,7 @@ def lengths(domain, bodies) -> Iterator[Found]:
     for number, body in bodies.items():
         for place, vector in _vectors(("bodies", number), body):
             if len(vector) != domain.dimension:
-                yield place, _wrong_length(vector, domain)
+                yield place, wrong_length(vector, domain)
 
 
 def _vectors(place: tuple, value) -> Iterator[tuple[tuple, list]]:
@@ -227,71 +224,6 @@ def inside(domain, bodies) -> Iterator[Found]:
                 beyond.append(f"{high - size:.6g} m beyond {axis} = {size:.12g}")
         if beyond:
             yield ("bodies", number, "shape"), f"leaves the domain: {' and '.join(beyond)}"
-
-
-def definitions(domain, definitions) -> Iterator[Found]:
-    """Each formula by itself, with the names before it."""
-    known = {}
-    for name, formula in definitions.items():
-        try:
-            check_name(name)
-            known[name] = parse(formula, domain.dimension, known)
-        except ValueError as error:
-            yield ("definitions", name), str(error)
-            return
-
-
-def formulas(domain, definitions, bodies) -> Iterator[Found]:
-    for number, body in bodies.items():
-        for key in ("velocity", "displacement"):
-            place = ("bodies", number, key)
-            yield from _unusable(place, getattr(body, key), domain, definitions, "XYZ")
-
-
-def body_force(domain, definitions, body_force) -> Iterator[Found]:
-    yield from _unusable(("body_force",), body_force, domain, definitions, "XYZxyzt")
-    if body_force is not None and len(body_force) != domain.dimension:
-        yield ("body_force",), _wrong_length(body_force, domain)
-
-
-def exact(domain, definitions, exact) -> Iterator[Found]:
-    if exact is None:
-        return
-    for key in ("displacement", "velocity"):
-        entries = getattr(exact, key)
-        yield from _unusable(("exact", key), entries, domain, definitions, "XYZt")
-        if entries is not None and len(entries) != domain.dimension:
-            yield ("exact", key), _wrong_length(entries, domain)
-    yield from _unusable(("exact", "stress"), exact.stress, domain, definitions, "XYZt")
-    if exact.displacement is exact.velocity is exact.stress is None:
-        yield ("exact",), "must have at least one of displacement, velocity, stress"
-
-
-def _unusable(place, formulas, domain, definitions, variables) -> Iterator[Found]:
-    """Formulas (a list or a mapping) that cannot be read or use what is not known there."""
-    items = formulas.items() if isinstance(formulas, dict) else enumerate(formulas or ())
-    for key, formula in items:
-        try:
-            used = Expressions([formula], definitions, dim=domain.dimension).variables
-            unknown = sorted(used - set(variables))
-            there = [name for name in variables if name.lower() != "z" or domain.dimension == 3]
-            text = f"must not use {', '.join(unknown)}: it is a field of {', '.join(there)}"
-        except ValueError as error:
-            unknown, text = [formula], str(error)
-        if unknown and not _definitions_are_wrong(definitions, domain):
-            yield (*place, key), text
-
-
-def _definitions_are_wrong(given, domain) -> bool:
-    """Then each is told once, where it stands."""
-    return any(definitions(domain, given))
-
-
-def _wrong_length(vector: list, domain) -> str:
-    return (
-        f"must have {domain.dimension} entries, one for each axis of domain.size "
-        f"(got {len(vector)})"
-    )
 
 
 def _listed(numbers) -> str:

@@ -3,6 +3,9 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+Found = tuple[tuple[str | int, ...], str]
+"""A fault: the location of a key and the sentence that follows it."""
+
 
 def path_text(path: tuple) -> str:
     """`bodies[0].velocity`."""
@@ -33,3 +36,11 @@ def suggestion(word: object, known: Iterable[str]) -> str:
     words = {candidate.lower(): candidate for candidate in known}
     close = get_close_matches(str(word).lower(), words, 1)
     return f"; did you mean '{words[close[0]]}'?" if close else ""
+
+
+def wrong_length(vector: list, domain) -> str:
+    """Of a vector that has not one entry per axis."""
+    return (
+        f"must have {domain.dimension} entries, one for each axis of domain.size "
+        f"(got {len(vector)})"
+    )
