@@ -86,6 +86,12 @@ def nodes(grid, lane):
     return box(0), box(grid.apart) if grid.increment else 0 * box(0)
 
 
+def reachable(grid):
+    """The nodes that particles can reach: only these have images in the fast form."""
+    i = np.arange(grid.nodes).reshape(grid.extent)[tuple(slice(n) for n in grid.shape)]
+    return (grid.active[0] <= i) & (i < grid.active[1])
+
+
 def particle_fields(fast, twin):
     """Pairs (fast, twin) of everything that particles carry after a step."""
     particles, layout, dim = fast.particles, fast.particles.layout, fast.grid.dim

@@ -30,7 +30,7 @@ from mpm_taichi.reference.kernels import update_stress as twin_update_stress
 from mpm_taichi.reference.kernels import wrap as twin_wrap
 
 from ..cases import ALL_CASES
-from .states import CELLS, DX, build, largest_difference, nodes, particle_fields
+from .states import CELLS, DX, build, largest_difference, nodes, particle_fields, reachable
 
 TOLERANCE = 1e-12
 DT = 2.5e-4
@@ -81,9 +81,10 @@ def test_steps_and_stages_equal_the_twin(exact, rng, dim, basis, transfer):
     ghosts.fill_ghosts(G, fast.walls, fast.gravity)
     twin_ghosts.fill_ghosts(N, twin.walls, twin.gravity)
     v, increment = nodes(G, lanes)
-    assert largest_difference(v, N.v) < TOLERANCE
+    reached = reachable(G)
+    assert largest_difference(v[reached], N.v[reached]) < TOLERANCE
     if fast.transfer.increment:
-        assert largest_difference(increment, N.v - N.v_old) < TOLERANCE
+        assert largest_difference(increment[reached], (N.v - N.v_old)[reached]) < TOLERANCE
     assert G.speed_squared[None] == pytest.approx(N.speed_squared, rel=TOLERANCE)
     assert G.cut[None] == N.cut
 
