@@ -10,7 +10,7 @@ from . import diagnostics
 from .errors import InputError, RunError
 from .kernels.respond import respond
 from .materials import LinearElastic, NeoHookean
-from .particles import Group
+from .particles import groups_of
 
 ELASTIC = (LinearElastic, NeoHookean)
 """Laws whose stress and energy follow from the gradient of the displacement.  For a linear elastic
@@ -92,7 +92,7 @@ class ExactSolution:
         mine = [scene.materials[body.material] == material for body in scene.bodies]
         members = np.flatnonzero(np.array(mine)[self.simulation.body_of_particle])
         undeformed = np.zeros((len(members), scene.dimension, scene.dimension))
-        group = Group(material, scene.dimension, scene.cell_size, 0, len(members), undeformed)
+        (group,) = groups_of([material], scene.dimension, scene.cell_size, [undeformed])
         return group, members
 
     def _nearest(self, d):

@@ -3,9 +3,11 @@
 from itertools import product
 from typing import Any
 
+import numpy as np
 import taichi as ti
 
 from .errors import InputError
+from .kernels.blocks import BLOCK, CHUNK, GATE
 
 PAD = 4  # nodes
 
@@ -25,12 +27,14 @@ class Grid:
     ):
         self.dim, self.cells, self.dx = len(cells), tuple(cells), dx
         self.increment, self.threads, self.atomic = increment, threads, atomic
+        # See kernels/blocks.py.
+        self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
         self.periodic = tuple(periodic)
         self.walled = tuple((wall.axis, wall.upper) for wall in walls)
         # Hat functions and modified splines give nothing to the nodes behind a wall.
         mirrors = basis.support > 2 and not basis.modified
         self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
-        self.ghost = basis.support
+        self.ghost = self.support = basis.support
         self.lines = list(product(range(basis.support), repeat=self.dim - 1))
         # Rows and planes are PAD nodes longer than the box: strides of a power of two would put
         # the lines of a stencil into the same few sets of the first-level cache.
@@ -59,8 +63,16 @@ class Grid:
         self.slabs = 2 * -(-self.extent[0] // (2 * self.slab))
         self.start = ti.field(int, (groups, self.slabs + 1))  # first particle [group, slab]
         self.share = ti.field(float, self.slabs)  # part of all particles before a slab's middle
-        self.count = ti.field(int, self.mask + 1)  # of the sort
-        self.active = ti.field(int, 2)  # first and last + 1 node that particles can reach
+        # Chunks of nodes: those where stencils begin, those that particles can reach, their list.
+        self.chunks = -(-self.nodes // CHUNK)
+        self.count = ti.field(int, self.mask + 1)  # of the sort, 0 outside of it
+        self.occupied = ti.field(int, (self.mask + 1) // CHUNK)
+        self.reached = ti.field(int, (self.mask + 1) // CHUNK)
+        self.active = ti.field(int, self.chunks)
+        self.active_count: Any = ti.field(int, ())
+        self.placed: Any = ti.field(int, ())
+        self.lowest: Any = ti.Vector.field(self.dim, int, ())  # first node of a stencil
+        self.highest: Any = ti.Vector.field(self.dim, int, ())
         self.speed_squared: Any = ti.field(float, ())  # largest |v|^2 of the nodes in this step
         self.cut: Any = ti.field(int, ())  # nodes that the cut-off emptied, counted each step
         numbers = {
@@ -74,3 +86,17 @@ class Grid:
         for name, number in numbers.items():
             self.constants[None][name] = number
         self.constants[None]["size"] = [n * dx for n in cells]
+
+    def note_reach(self):
+        """After a sort: what the host has to know of the nodes that particles can reach."""
+        self.node_workers = self.workers(self.active_count[None] * CHUNK)
+        low, high = self.lowest.to_numpy() - 1, self.highest.to_numpy() + self.support
+        self.near_end = (low < self.ghost) | (high > self.ghost + np.array(self.cells))
+
+    def workers(self, count):
+        """How many share `count` elements."""
+        return count if self.atomic else self.threads
+
+    def is_near_end(self, axis):
+        """Whether particles reach ghost nodes along an axis."""
+        return axis in self.periodic or self.near_end[axis]

@@ -1,6 +1,8 @@
-"""Particle fields: one contiguous range per material, sorted by place within it."""
+"""Particle fields: one contiguous range per material, sorted by place within it; the materials of a
+law side by side."""
 
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -40,32 +42,64 @@ class BodyPoints:
         return np.zeros((*self.x.shape, self.x.shape[1]))
 
 
-class Group:
-    """All particles of one material: its law, constants in a 0-D struct field, state, range.
+class Law:
+    """What the materials of one law share on the device, so that it is compiled once: `constants`
+    [materials], and the history `state` of their particles, the first of which is `begin`.
 
-    H [end - begin, dim, dim] is where the history of a law starts."""
+    H [n, dim, dim] of each material's particles is where the history starts."""
 
-    def __init__(self, material, dim, dx, begin, end, H):
-        self.material, self.law, self.begin, self.end = material, type(material), begin, end
-        numbers = material.constants(dx)
-        self.constants = ti.Struct.field(dict.fromkeys(numbers, float), shape=())
-        for name, number in numbers.items():
-            self.constants[None][name] = number
-        self.has_state = bool(material.state(dim))
+    def __init__(self, materials, dim, dx, begin, H):
+        self.kind, self.begin = type(materials[0]), begin
+        numbers = [material.constants(dx) for material in materials]
+        self.constants = ti.Struct.field(dict.fromkeys(numbers[0], float), shape=len(materials))
+        for k, values in enumerate(numbers):
+            for name, number in values.items():
+                self.constants[k][name] = number
+        history = materials[0].state(dim)
+        self.has_state = bool(history)
         if self.has_state:
-            self.state = self._state_field(dim)
-            self.scratch = self._state_field(dim)
-            for name, start in material.start(H).items():
-                self.state.get_member_field(name).from_numpy(start)
+            starts = [material.start(h) for material, h in zip(materials, H, strict=True)]
+            self.state = self._state_field(history, sum(map(len, H)))
+            self.scratch = self._state_field(history, sum(map(len, H)))
+            for name in history:
+                values = np.concatenate([start[name] for start in starts])
+                self.state.get_member_field(name).from_numpy(values)
 
-    def _state_field(self, dim):
+    def _state_field(self, history, count):
         kinds = {
             name: ti.types.matrix(len(start), len(start[0]), float)
             if np.ndim(start) == 2
             else float
-            for name, start in self.material.state(dim).items()
+            for name, start in history.items()
         }
-        return ti.Struct.field(kinds, shape=self.end - self.begin)
+        return ti.Struct.field(kinds, shape=count)
+
+
+@dataclass(frozen=True)
+class Group:
+    """All particles of one material: begin ... end - 1, and its number within its law."""
+
+    material: Material
+    law: Law
+    number: int
+    begin: int
+    end: int
+
+
+def groups_of(materials, dim, dx, H) -> list[Group]:
+    """A group for each material, whose particles start with H [n, dim, dim]; those of a law lie
+    side by side in `materials`."""
+    ends = np.cumsum([len(h) for h in H])
+    groups = []
+    for _, together in groupby(range(len(materials)), key=lambda k: type(materials[k])):
+        mine = list(together)
+        begin = ends[mine[0]] - len(H[mine[0]])
+        law = Law([materials[k] for k in mine], dim, dx, int(begin), [H[k] for k in mine])
+        groups += [
+            Group(materials[k], law, number, int(ends[k] - len(H[k])), int(ends[k]))
+            for number, k in enumerate(mine)
+        ]
+    return groups
 
 
 class Particles:
@@ -82,16 +116,16 @@ class Particles:
         self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None)
         self.transfer, self.basis, self.dx = transfer, basis, dx
         materials = list(dict.fromkeys(body.material for body in bodies))
+        laws = list(dict.fromkeys(map(type, materials)))
+        materials.sort(key=lambda material: laws.index(type(material)))
         self.group_count = len(materials)
         kind = np.repeat([materials.index(body.material) for body in bodies],
                          [len(body.x) for body in bodies])  # fmt: skip
         id = np.argsort(kind, kind="stable")
         ends = np.cumsum(np.bincount(kind, minlength=len(materials)))
         H = np.concatenate([body.displacement_gradient for body in bodies])[id]
-        self.groups = [
-            Group(material, self.dim, dx, int(begin), int(end), H[begin:end])
-            for material, begin, end in zip(materials, [0, *ends[:-1]], ends, strict=True)
-        ]
+        self.groups = groups_of(materials, self.dim, dx, np.split(H, ends[:-1]))
+        self.laws = list(dict.fromkeys(group.law for group in self.groups))
         self.x = ti.Vector.field(self.dim, float, self.count)
         self.H = ti.Matrix.field(self.dim, self.dim, float, self.count)
         self.m = ti.field(float, self.count)

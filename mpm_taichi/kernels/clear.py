@@ -4,7 +4,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .blocks import BLOCK, first_block
+from .blocks import active_blocks, first_active_node, first_block
 
 
 @ti.func
@@ -14,25 +14,26 @@ def clear_node(i, grid: Template):
         grid.node[i + grid.apart] = ti.Vector.zero(float, 4)
 
 
-@ti.kernel
-def clear_nodes(grid: Template, threads: int):
-    grid.speed_squared[None] = 0.0
-    if ti.static(grid.atomic):
-        for i in range(grid.active[0], grid.active[1]):
+@ti.func
+def clear_share(grid: Template, worker, workers):
+    blocks = active_blocks(grid)
+    for block in range(
+        first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
+    ):
+        first = first_active_node(block, grid)
+        for i in range(first, first + grid.node_block):
             clear_node(i, grid)
-    else:
-        for counter in range(512 * threads):
-            if counter % 512 == 0:
-                begin, end = grid.active[0], grid.active[1]
-                worker = counter // 512
-                last = first_block(worker + 1, threads, end - begin)
-                for block in range(first_block(worker, threads, end - begin), last):
-                    start = begin + block * BLOCK
-                    for i in range(start, ti.min(start + BLOCK, end)):
-                        clear_node(i, grid)
+
+
+@ti.kernel
+def clear_nodes(grid: Template, workers: int):
+    grid.speed_squared[None] = 0.0
+    for counter in range(grid.gate * workers):
+        if counter % grid.gate == 0:
+            clear_share(grid, counter // grid.gate, workers)
 
 
 @stage
 def clear(grid):
     """On return every node that a particle can reach is zero."""
-    clear_nodes(grid, grid.threads)
+    clear_nodes(grid, grid.node_workers)

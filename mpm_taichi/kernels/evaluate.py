@@ -11,21 +11,21 @@ from .update_stress import load_state
 
 @ti.kernel
 def evaluate_particles(
-    particles: Template, group: Template, grid: Template, basis: Template,
+    particles: Template, law: Template, material: int, grid: Template, basis: Template,
     begin: int, end: int, table: Array,
 ):  # fmt: skip
     """Row id of the table: x, v, D, H, tau, A, psi, tau_zz."""
     dim = ti.static(grid.dim)
     matrix = ti.static(dim * dim)
     for p in range(begin, end):
-        c, g, H, id = group.constants[None], grid.constants[None], particles.H[p], particles.id[p]
-        x = particles.x[p]
+        c, g = law.constants[material], grid.constants[None]
+        x, H, id = particles.x[p], particles.H[p], particles.id[p]
         v = vector(particles.rows, p, 0, dim) / particles.m[p]
         A = columns(particles.rows, p, particles.layout.affine, dim) * g.inv_dx
         _base, a, w, _dw = weigh(p, particles, grid, basis)
         D = moment(w, a)
         still = ti.Matrix.zero(float, dim, dim)
-        H_same, s, tau = group.law.update(c, H, still, 0.0, load_state(group, p - begin))
+        H_same, s, tau = law.kind.update(c, H, still, 0.0, load_state(law, p))
         for d in ti.static(range(dim)):
             table[id, d] = x[d]
             table[id, dim + d] = v[d]
@@ -36,9 +36,9 @@ def evaluate_particles(
                 table[id, at + matrix] = tau[d, e]
                 table[id, at + 2 * matrix] = A[d, e]
         last = ti.static(3 * dim + 3 * matrix)
-        table[id, last] = group.law.energy_density(c, H_same, s)
+        table[id, last] = law.kind.energy_density(c, H_same, s)
         if ti.static(dim == 2):
-            table[id, last + 1] = group.law.out_of_plane_stress(c, H_same, s)
+            table[id, last + 1] = law.kind.out_of_plane_stress(c, H_same, s)
 
 
 def evaluate(particles, grid, basis):
@@ -48,7 +48,9 @@ def evaluate(particles, grid, basis):
     n, dim = particles.count, grid.dim
     table = np.zeros((n, 3 * dim + 3 * dim**2 + 2), particles.dtype)
     for group in particles.groups:
-        evaluate_particles(particles, group, grid, basis, group.begin, group.end, table)
+        evaluate_particles(
+            particles, group.law, group.number, grid, basis, group.begin, group.end, table
+        )
     vectors = {"x": 0, "v": dim, "D": 2 * dim}
     matrices = {"H": 3 * dim, "tau": 3 * dim + dim**2, "A": 3 * dim + 2 * dim**2}
     scalars = {"psi": -2, "tau_zz": -1}

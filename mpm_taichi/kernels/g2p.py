@@ -4,7 +4,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .blocks import BLOCK, first_block
+from .blocks import blocks_of, first_block
 from .stencil import index, line_slope, line_weight, offset, weigh
 
 
@@ -67,23 +67,28 @@ def gather_particle(
         particles.rows[p, particles.layout.pic] = v
 
 
+@ti.func
+def gather_share(
+    particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
+    worker, workers,
+):  # fmt: skip
+    blocks = blocks_of(particles.count, grid.block)
+    for block in range(
+        first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
+    ):
+        first = block * grid.block
+        for p in range(first, ti.min(first + grid.block, particles.count)):
+            gather_particle(p, particles, grid, basis, transfer, what)
+
+
 @ti.kernel
 def gather_particles(
     particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
-    threads: int,
+    workers: int,
 ):  # fmt: skip
-    if ti.static(grid.atomic):
-        for p in range(particles.count):
-            gather_particle(p, particles, grid, basis, transfer, what)
-    else:
-        for counter in range(512 * threads):
-            if counter % 512 == 0:
-                worker = counter // 512
-                last = first_block(worker + 1, threads, particles.count)
-                for block in range(first_block(worker, threads, particles.count), last):
-                    start = block * BLOCK
-                    for p in range(start, ti.min(start + BLOCK, particles.count)):
-                        gather_particle(p, particles, grid, basis, transfer, what)
+    for counter in range(grid.gate * workers):
+        if counter % grid.gate == 0:
+            gather_share(particles, grid, basis, transfer, what, counter // grid.gate, workers)
 
 
 @stage
@@ -94,4 +99,4 @@ def g2p(particles, grid, basis, transfer, what="all"):
 
     On return the rows hold what was gathered (see kernels/rows.py); x, H and the state are as
     before."""
-    gather_particles(particles, grid, basis, transfer, what, grid.threads)
+    gather_particles(particles, grid, basis, transfer, what, grid.workers(particles.count))

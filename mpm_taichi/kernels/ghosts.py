@@ -15,7 +15,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .blocks import BLOCK, first_block
+from .blocks import CHUNK, blocks_of, first_block
 
 
 @ti.func
@@ -32,7 +32,7 @@ def line_start(j, axis: Template, grid: Template):
 @ti.func
 def is_active(i, grid: Template):
     """Whether the node was cleared in this step; others hold what an earlier one has left."""
-    return grid.active[0] <= i and i < grid.active[1]
+    return grid.reached[i // CHUNK] == 1
 
 
 @ti.func
@@ -94,32 +94,40 @@ def exchange_along(
                 exchange(at_wall + k * outward, at_wall - k * outward, grid, wall, fill, records)
 
 
+@ti.func
+def exchange_share(
+    axis: Template, grid: Template, walls: Template, gravity: Template, dt,
+    updated: Template, fill: Template, records: Template, lines, worker, workers,
+):  # fmt: skip
+    blocks = blocks_of(lines, grid.block)
+    for block in range(
+        first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
+    ):
+        first = block * grid.block
+        for j in range(first, ti.min(first + grid.block, lines)):
+            exchange_along(j, axis, grid, walls, gravity, dt, updated, fill, records)
+
+
 @ti.kernel
 def exchange_lines(
     axis: Template, grid: Template, walls: Template, gravity: Template, dt: float,
-    updated: Template, fill: Template, records: Template, lines: int, threads: int,
+    updated: Template, fill: Template, records: Template, lines: int, workers: int,
 ):  # fmt: skip
-    if ti.static(grid.atomic):
-        for j in range(lines):
-            exchange_along(j, axis, grid, walls, gravity, dt, updated, fill, records)
-    else:
-        for counter in range(512 * threads):
-            if counter % 512 == 0:
-                worker = counter // 512
-                last = first_block(worker + 1, threads, lines)
-                for block in range(first_block(worker, threads, lines), last):
-                    for j in range(block * BLOCK, ti.min((block + 1) * BLOCK, lines)):
-                        exchange_along(
-                            j, axis, grid, walls, gravity, dt, updated, fill, records
-                        )  # fmt: skip
+    for counter in range(grid.gate * workers):
+        if counter % grid.gate == 0:
+            exchange_share(
+                axis, grid, walls, gravity, dt, updated, fill, records, lines,
+                counter // grid.gate, workers,
+            )  # fmt: skip
 
 
 def exchange_all(grid, walls, gravity, dt, updated, fill, records):
     for axis in grid.folded:
-        lines = prod(grid.shape) // grid.shape[axis]
-        exchange_lines(
-            axis, grid, walls, gravity, dt, updated, fill, records, lines, grid.threads
-        )  # fmt: skip
+        if grid.is_near_end(axis):
+            lines = prod(grid.shape) // grid.shape[axis]
+            exchange_lines(
+                axis, grid, walls, gravity, dt, updated, fill, records, lines, grid.workers(lines)
+            )  # fmt: skip
 
 
 @stage

@@ -4,7 +4,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .blocks import BLOCK, first_block
+from .blocks import active_blocks, first_active_node, first_block
 
 
 @ti.func
@@ -47,24 +47,25 @@ def update_node(i, grid: Template, walls: Template, gravity: Template, dt):
     return v.norm_sqr()
 
 
+@ti.func
+def update_share(grid: Template, walls: Template, gravity: Template, dt, worker, workers):
+    blocks = active_blocks(grid)
+    fastest = 0.0
+    for block in range(
+        first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
+    ):
+        first = first_active_node(block, grid)
+        for i in range(first, first + grid.node_block):
+            speed_squared = update_node(i, grid, walls, gravity, dt)
+            fastest = ti.max(fastest, speed_squared)
+    ti.atomic_max(grid.speed_squared[None], fastest)
+
+
 @ti.kernel
-def update_nodes(grid: Template, walls: Template, gravity: Template, dt: float, threads: int):
-    if ti.static(grid.atomic):
-        for i in range(grid.active[0], grid.active[1]):
-            ti.atomic_max(grid.speed_squared[None], update_node(i, grid, walls, gravity, dt))
-    else:
-        for counter in range(512 * threads):
-            if counter % 512 == 0:
-                begin, end = grid.active[0], grid.active[1]
-                worker = counter // 512
-                last = first_block(worker + 1, threads, end - begin)
-                fastest = 0.0
-                for block in range(first_block(worker, threads, end - begin), last):
-                    start = begin + block * BLOCK
-                    for i in range(start, ti.min(start + BLOCK, end)):
-                        speed_squared = update_node(i, grid, walls, gravity, dt)
-                        fastest = ti.max(fastest, speed_squared)
-                ti.atomic_max(grid.speed_squared[None], fastest)
+def update_nodes(grid: Template, walls: Template, gravity: Template, dt: float, workers: int):
+    for counter in range(grid.gate * workers):
+        if counter % grid.gate == 0:
+            update_share(grid, walls, gravity, dt, counter // grid.gate, workers)
 
 
 @stage
@@ -75,4 +76,4 @@ def grid_update(grid, walls, gravity, dt):
     A node no heavier than the relative cut-off of its basis stands still and is counted in
     `grid.cut`.  On return a node holds (v, m), with `grid.increment` also v - v_old in the record
     apart, and `grid.speed_squared` the largest |v_i|^2."""
-    update_nodes(grid, walls, gravity, dt, grid.threads)
+    update_nodes(grid, walls, gravity, dt, grid.node_workers)

@@ -86,30 +86,34 @@ def scatter_particle(
                 scatter(first + grid.apart, grid, w, dw, force, [], T)
 
 
+@ti.func
+def scatter_share(
+    particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
+    color, worker, workers,
+):  # fmt: skip
+    """The slabs of one color whose middle lies in the worker's share of all particles."""
+    for pair in range(grid.slabs // 2):
+        slab = 2 * pair + color
+        # In f32 the share of the last slab may round up to 1.
+        if ti.min(int(grid.share[slab] * workers), workers - 1) == worker:
+            for g in range(particles.group_count):
+                for p in range(grid.start[g, slab], grid.start[g, slab + 1]):
+                    scatter_particle(p, particles, grid, basis, transfer, what)
+
+
 @ti.kernel
 def scatter_particles(
-    particles: Template,
-    grid: Template,
-    basis: Template,
-    transfer: Template,
-    what: Template,
-    color: int,
-    threads: int,
-):
-    """On a CPU the slabs of one color, which share no node: each worker takes whole slabs."""
-    if ti.static(grid.atomic):
-        for p in range(particles.count):
-            scatter_particle(p, particles, grid, basis, transfer, what)
-    else:
-        for counter in range(512 * threads):
-            if counter % 512 == 0:
-                for pair in range(grid.slabs // 2):
-                    slab = 2 * pair + color
-                    # In f32 the share of the last slab may round up to 1.
-                    if ti.min(int(grid.share[slab] * threads), threads - 1) == counter // 512:
-                        for g in range(particles.group_count):
-                            for p in range(grid.start[g, slab], grid.start[g, slab + 1]):
-                                scatter_particle(p, particles, grid, basis, transfer, what)
+    particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
+    color: int, workers: int,
+):  # fmt: skip
+    """On a CPU the slabs of one color, which share no node."""
+    for counter in range(grid.gate * workers):
+        if counter % grid.gate == 0:
+            if ti.static(grid.atomic):
+                scatter_particle(counter, particles, grid, basis, transfer, what)
+            else:
+                worker = counter // grid.gate
+                scatter_share(particles, grid, basis, transfer, what, color, worker, workers)
 
 
 @stage
@@ -120,6 +124,6 @@ def p2g(particles, grid, basis, transfer, what="all"):
 
     On return a node holds (momentum and impulse [kg m/s], mass [kg]); with `transfer.increment` the
     impulse is in the record apart, and so is the residual."""
-    scatter_particles(particles, grid, basis, transfer, what, 0, grid.threads)
-    if not grid.atomic:
-        scatter_particles(particles, grid, basis, transfer, what, 1, grid.threads)
+    workers = grid.workers(particles.count)
+    for color in range(1 if grid.atomic else 2):
+        scatter_particles(particles, grid, basis, transfer, what, color, workers)

@@ -8,29 +8,30 @@ from .update_stress import load_state
 
 
 @ti.kernel
-def respond_each(group: Template, dim: Template, gradients: Array, table: Array):
+def respond_each(law: Template, material: int, dim: Template, gradients: Array, table: Array):
     """Row p of the table: tau, psi, tau_zz."""
     for p in range(table.shape[0]):
-        c, still = group.constants[None], ti.Matrix.zero(float, dim, dim)
+        c, still = law.constants[material], ti.Matrix.zero(float, dim, dim)
         H = ti.Matrix.zero(float, dim, dim)
         for d, e in ti.static(ti.ndrange(dim, dim)):
             H[d, e] = gradients[p, d, e]
-        H_same, s, tau = group.law.update(c, H, still, 0.0, load_state(group, p))
+        H_same, s, tau = law.kind.update(c, H, still, 0.0, load_state(law, law.begin + p))
         for d, e in ti.static(ti.ndrange(dim, dim)):
             table[p, d * dim + e] = tau[d, e]
-        table[p, dim * dim] = group.law.energy_density(c, H_same, s)
+        table[p, dim * dim] = law.kind.energy_density(c, H_same, s)
         if ti.static(dim == 2):
-            table[p, dim * dim + 1] = group.law.out_of_plane_stress(c, H_same, s)
+            table[p, dim * dim + 1] = law.kind.out_of_plane_stress(c, H_same, s)
 
 
 def respond(group, H, start):
     """tau [n, dim, dim] (Kirchhoff stress, Pa), psi [n] (elastic energy per reference volume,
     J/m^3) and, in plane strain, tau_zz [n], of H = F - I [n, dim, dim] by the law of the group,
-    with the history `start`: name -> values [n, ...].  The group's own history is lost."""
+    with the history `start`: name -> values [n, ...].  The group has its law to itself, and loses
+    its own history."""
     for name, values in start.items():
-        group.state.get_member_field(name).from_numpy(values)
+        group.law.state.get_member_field(name).from_numpy(values)
     n, dim = H.shape[:2]
     table = np.zeros((n, dim**2 + 2), H.dtype)
-    respond_each(group, dim, H, table)
+    respond_each(group.law, group.number, dim, H, table)
     table = table.astype(float)
     return table[:, : dim**2].reshape(n, dim, dim), table[:, -2], table[:, -1]

@@ -4,6 +4,7 @@ import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
+from .blocks import CHUNK
 from .stencil import first_node, index
 
 
@@ -15,27 +16,50 @@ def cell(p, particles: Template, grid: Template, basis: Template):
 @ti.kernel
 def find_order(particles: Template, grid: Template, basis: Template, g: int, begin: int, end: int):
     """order[new place] = old place, and start[g, slab].  Serial on a CPU: equal cells keep their
-    order, whatever the number of threads."""
-    for i in grid.count:
-        grid.count[i] = 0
+    order, whatever the number of threads.  On a GPU each chunk takes the next places that are free.
+
+    Cells are counted, but only chunks with particles are looked at again."""
     ti.loop_config(serialize=not grid.atomic)
     for p in range(begin, end):
-        grid.count[cell(p, particles, grid, basis)] += 1
+        base = first_node(particles.x[p], grid, basis)
+        i = index(grid, base)
+        grid.count[i] += 1
+        grid.occupied[i // CHUNK] = 1
+        for d in ti.static(range(grid.dim)):
+            ti.atomic_min(grid.lowest[None][d], base[d])
+            ti.atomic_max(grid.highest[None][d], base[d])
+        if ti.static(not grid.atomic):
+            grid.start[g, i // (grid.slab * grid.strides[0])] += 1
     ti.loop_config(serialize=True)
     for _ in range(1):
-        total = begin
-        for slab in range(grid.slabs):
-            grid.start[g, slab] = total
-            width = grid.slab * grid.strides[0]
-            for i in range(slab * width, ti.min((slab + 1) * width, grid.nodes)):
+        grid.placed[None] = begin
+        if ti.static(not grid.atomic):
+            total = begin
+            for slab in range(grid.slabs):
+                inside = grid.start[g, slab]
+                grid.start[g, slab] = total
+                total += inside
+            grid.start[g, grid.slabs] = end
+    ti.loop_config(serialize=not grid.atomic)
+    for chunk in range(grid.chunks):
+        if grid.occupied[chunk]:
+            inside = 0
+            for i in range(chunk * CHUNK, (chunk + 1) * CHUNK):
+                inside += grid.count[i]
+            place = ti.atomic_add(grid.placed[None], inside)
+            for i in range(chunk * CHUNK, (chunk + 1) * CHUNK):
                 here = grid.count[i]
-                grid.count[i] = total
-                total += here
-        grid.start[g, grid.slabs] = end
+                grid.count[i] = place
+                place += here
     ti.loop_config(serialize=not grid.atomic)
     for p in range(begin, end):
         place = ti.atomic_add(grid.count[cell(p, particles, grid, basis)], 1)
         particles.order[place] = p
+    ti.loop_config(serialize=not grid.atomic)
+    for chunk in range(grid.chunks):
+        if grid.occupied[chunk]:
+            for i in range(chunk * CHUNK, (chunk + 1) * CHUNK):
+                grid.count[i] = 0
 
 
 @ti.kernel
@@ -56,38 +80,70 @@ def permute(field: Template, scratch: Template, order: Template, begin: int, wid
 
 
 @ti.kernel
+def forget(grid: Template):
+    """Before a sort: nothing is occupied, and what was reached is no more."""
+    for a in range(grid.active_count[None]):
+        grid.reached[grid.active[a]] = 0
+    for chunk in grid.occupied:
+        grid.occupied[chunk] = 0
+    for g, slab in grid.start:
+        grid.start[g, slab] = 0
+    for d in ti.static(range(grid.dim)):
+        grid.lowest[None][d] = grid.nodes
+        grid.highest[None][d] = 0
+
+
+@ti.func
+def mark_around(chunk, grid: Template):
+    """The chunks that particles reach whose stencil begins in this one: with a cell of drift from 1
+    node before it to `support` nodes behind it, along each axis."""
+    for lead in ti.grouped(ti.ndrange(*[(-1, grid.support + 1)] * (grid.dim - 1))):
+        first = chunk * CHUNK - 1
+        last = (chunk + 1) * CHUNK - 1 + grid.support
+        for d in ti.static(range(grid.dim - 1)):
+            first += lead[d] * grid.strides[d]
+            last += lead[d] * grid.strides[d]
+        for near in range(ti.max(first, 0) // CHUNK, ti.min(last, grid.nodes - 1) // CHUNK + 1):
+            grid.reached[near] = 1
+
+
+@ti.kernel
 def plan(particles: Template, grid: Template):
-    """From start[group, slab]: the `share` of each slab, and the `active` range of nodes."""
+    """From occupied: reached and active.  From start[group, slab]: the share of each slab."""
+    ti.loop_config(serialize=not grid.atomic)
+    for chunk in range(grid.chunks):
+        if grid.occupied[chunk]:
+            mark_around(chunk, grid)
+        if ti.static(grid.periodic):
+            grid.reached[chunk] = 1
+    grid.active_count[None] = 0
+    ti.loop_config(serialize=not grid.atomic)
+    for chunk in range(grid.chunks):
+        if grid.reached[chunk]:
+            grid.active[ti.atomic_add(grid.active_count[None], 1)] = chunk
     ti.loop_config(serialize=True)
     for _ in range(1):
         before = 0
-        grid.active[0] = grid.nodes
-        grid.active[1] = 0
         for slab in range(grid.slabs):
             inside = 0
             for g in range(particles.group_count):
                 inside += grid.start[g, slab + 1] - grid.start[g, slab]
             grid.share[slab] = (before + 0.5 * inside) / particles.count
             before += inside
-            if (
-                inside > 0
-            ):  # drift and mirror images to the left; drift and the stencil to the right
-                left, right = slab * grid.slab - grid.ghost, (slab + 2) * grid.slab
-                if ti.static(0 in grid.periodic):
-                    left, right = 0, grid.extent[0]
-                grid.active[0] = ti.min(grid.active[0], ti.max(left, 0) * grid.strides[0])
-                grid.active[1] = ti.min(right * grid.strides[0], grid.nodes)
 
 
 @stage
 def sort(particles, grid, basis):
     """On return the particles of each material lie in the order of their slabs and cells,
-    `grid.start` says where each slab begins and `grid.active` which nodes they can reach before
-    one of them has moved a cell."""
+    `grid.start` says where each slab begins, and `grid.active` lists the chunks of nodes that
+    particles can reach before one of them has moved a cell."""
+    forget(grid)
     for g, group in enumerate(particles.groups):
         find_order(particles, grid, basis, g, group.begin, group.end)
-        if group.has_state:
-            permute(group.state, group.scratch, particles.order, group.begin, 0)
+    for law in particles.laws:
+        if law.has_state:
+            permute(law.state, law.scratch, particles.order, law.begin, 0)
     for field, scratch in particles.carried:
         permute(field, scratch, particles.order, 0, field.shape[1] if len(field.shape) > 1 else 0)
     plan(particles, grid)
+    grid.note_reach()

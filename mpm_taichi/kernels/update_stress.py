@@ -1,18 +1,19 @@
-"""Stage 5: particles alone.  One launch per material, so that laws never meet in one kernel."""
+"""Stage 5: particles alone.  One kernel per law, so that laws never meet in one, and one launch per
+material."""
 
 import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
-from .blocks import BLOCK, first_block
+from .blocks import blocks_of, first_block
 from .rows import columns, put_columns, put_vector, vector
 
 
 @ti.func
-def load_state(group: Template, i):
-    """History of particle i of the group; 0 for a law that has none."""
-    if ti.static(group.has_state):
-        return group.state[i]
+def load_state(law: Template, p):
+    """History of particle p; 0 under a law that has none."""
+    if ti.static(law.has_state):
+        return law.state[p - law.begin]
     else:
         return 0
 
@@ -29,8 +30,8 @@ def note_if_lost(p, x, particles: Template, grid: Template):
 
 @ti.func
 def update_particle(
-    p, particles: Template, group: Template, grid: Template, transfer: Template,
-    begin, dt, dt_next, alpha, velocity: Template, stress: Template, move: Template,
+    p, particles: Template, law: Template, material, grid: Template, transfer: Template,
+    dt, dt_next, alpha, velocity: Template, stress: Template, move: Template,
 ):  # fmt: skip
     dim = ti.static(grid.dim)
     g = grid.constants[None]
@@ -45,12 +46,12 @@ def update_particle(
         C, L = transfer.gradients(B, L, g.inverse_moment)
     if ti.static(stress):
         H = particles.H[p]
-        H_new, s, tau = group.law.update(
-            group.constants[None], H + dt * (L + L @ H), L, dt, load_state(group, p - begin)
+        H_new, s, tau = law.kind.update(
+            law.constants[material], H + dt * (L + L @ H), L, dt, load_state(law, p)
         )
         particles.H[p] = H_new
-        if ti.static(group.has_state):
-            group.state[p - begin] = s
+        if ti.static(law.has_state):
+            law.state[p - law.begin] = s
         T = (-dt_next * particles.V0[p]) * tau
     if ti.static(velocity):
         put_vector(particles.rows, p, 0, m * v, m)
@@ -66,30 +67,36 @@ def update_particle(
         note_if_lost(p, x, particles, grid)
 
 
-@ti.kernel
-def update_particles(
-    particles: Template, group: Template, grid: Template, transfer: Template,
-    begin: int, end: int, dt: float, dt_next: float, alpha: float,
-    velocity: Template, stress: Template, move: Template, threads: int,
+@ti.func
+def stress_share(
+    particles: Template, law: Template, material, grid: Template, transfer: Template,
+    begin, end, dt, dt_next, alpha,
+    velocity: Template, stress: Template, move: Template, worker, workers,
 ):  # fmt: skip
-    if ti.static(grid.atomic):
-        for p in range(begin, end):
+    blocks = blocks_of(end - begin, grid.block)
+    for block in range(
+        first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
+    ):
+        first = begin + block * grid.block
+        for p in range(first, ti.min(first + grid.block, end)):
             update_particle(
-                p, particles, group, grid, transfer, begin, dt, dt_next, alpha,
+                p, particles, law, material, grid, transfer, dt, dt_next, alpha,
                 velocity, stress, move,
             )  # fmt: skip
-    else:
-        for counter in range(512 * threads):
-            if counter % 512 == 0:
-                worker = counter // 512
-                last = first_block(worker + 1, threads, end - begin)
-                for block in range(first_block(worker, threads, end - begin), last):
-                    start = begin + block * BLOCK
-                    for p in range(start, ti.min(start + BLOCK, end)):
-                        update_particle(
-                            p, particles, group, grid, transfer, begin, dt, dt_next, alpha,
-                            velocity, stress, move,
-                        )  # fmt: skip
+
+
+@ti.kernel
+def update_particles(
+    particles: Template, law: Template, material: int, grid: Template, transfer: Template,
+    begin: int, end: int, dt: float, dt_next: float, alpha: float,
+    velocity: Template, stress: Template, move: Template, workers: int,
+):  # fmt: skip
+    for counter in range(grid.gate * workers):
+        if counter % grid.gate == 0:
+            stress_share(
+                particles, law, material, grid, transfer, begin, end, dt, dt_next, alpha,
+                velocity, stress, move, counter // grid.gate, workers,
+            )  # fmt: skip
 
 
 @stage
@@ -104,6 +111,6 @@ def update_stress(
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
     has left the closed domain, or the number of particles."""
     update_particles(
-        particles, group, grid, transfer, group.begin, group.end, dt, dt_next, alpha,
-        velocity, stress, move, grid.threads,
+        particles, group.law, group.number, grid, transfer, group.begin, group.end,
+        dt, dt_next, alpha, velocity, stress, move, grid.workers(group.end - group.begin),
     )  # fmt: skip

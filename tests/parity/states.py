@@ -9,6 +9,7 @@ from mpm_taichi.particles import BodyPoints
 from mpm_taichi.reference import bases as twin_bases
 from mpm_taichi.reference import boundaries as twin_boundaries
 from mpm_taichi.reference import transfers as twin_transfers
+from mpm_taichi.reference.kernels.stencil import weigh
 from mpm_taichi.reference.solver import Solver as TwinSolver
 from mpm_taichi.solver import Solver
 
@@ -86,10 +87,15 @@ def nodes(grid, lane):
     return box(0), box(grid.apart) if grid.increment else 0 * box(0)
 
 
-def reachable(grid):
-    """The nodes that particles can reach: only these have images in the fast form."""
-    i = np.arange(grid.nodes).reshape(grid.extent)[tuple(slice(n) for n in grid.shape)]
-    return (grid.active[0] <= i) & (i < grid.active[1])
+def reachable(twin):
+    """The nodes that particles can reach while they drift by a cell at most: only these are kept
+    up to date in the fast form."""
+    particles, grid, basis = twin.particles, twin.grid, twin.basis
+    reached = np.zeros(grid.shape, bool)
+    for p in range(particles.count):
+        base = weigh(p, particles, grid, basis)[0]
+        reached[tuple(slice(max(i - 1, 0), i + basis.support + 1) for i in base)] = True
+    return reached
 
 
 def particle_fields(fast, twin):

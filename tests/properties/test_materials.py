@@ -11,7 +11,7 @@ import taichi as ti
 from mpm_taichi import runtime
 from mpm_taichi.materials import LinearElastic, NeoHookean
 from mpm_taichi.materials.invariants import log_volume_ratio, volume_strain
-from mpm_taichi.particles import Group
+from mpm_taichi.particles import groups_of
 from mpm_taichi.reference import materials as twin_materials
 from mpm_taichi.runtime import Array, Template
 
@@ -27,26 +27,26 @@ PRECISIONS = {"f64": 1e-12, "f32": 2e-5}
 
 
 @ti.kernel
-def apply(group: Template, dim: Template, F_minus_one: Array,
+def apply(law: Template, dim: Template, F_minus_one: Array,
           L_dt: Array, tau: Array, psi: Array,
           tau_zz: Array):  # fmt: skip
     for p in range(psi.shape[0]):
-        c = group.constants[None]
+        c = law.constants[0]
         H, L = ti.Matrix.zero(float, dim, dim), ti.Matrix.zero(float, dim, dim)
         for d, e in ti.static(ti.ndrange(dim, dim)):
             H[d, e] = F_minus_one[p, d, e]
             L[d, e] = L_dt[p, d, e]
         state = 0
-        if ti.static(group.has_state):
-            H_new, s, stress = group.law.update(c, H, L, 1.0, group.state[p])
-            psi[p] = group.law.energy_density(c, H_new, s)
-            tau_zz[p] = group.law.out_of_plane_stress(c, H_new, s)
+        if ti.static(law.has_state):
+            H_new, s, stress = law.kind.update(c, H, L, 1.0, law.state[p])
+            psi[p] = law.kind.energy_density(c, H_new, s)
+            tau_zz[p] = law.kind.out_of_plane_stress(c, H_new, s)
             for d, e in ti.static(ti.ndrange(dim, dim)):
                 tau[p, d, e] = stress[d, e]
         else:
-            H_new, s, stress = group.law.update(c, H, L, 1.0, state)
-            psi[p] = group.law.energy_density(c, H_new, s)
-            tau_zz[p] = group.law.out_of_plane_stress(c, H_new, s)
+            H_new, s, stress = law.kind.update(c, H, L, 1.0, state)
+            psi[p] = law.kind.energy_density(c, H_new, s)
+            tau_zz[p] = law.kind.out_of_plane_stress(c, H_new, s)
             for d, e in ti.static(ti.ndrange(dim, dim)):
                 tau[p, d, e] = stress[d, e]
 
@@ -54,12 +54,12 @@ def apply(group: Template, dim: Template, F_minus_one: Array,
 def response(material, F, dt_L=None):
     """tau, psi, tau_zz of deformation gradients F [n, dim, dim], from a fresh state."""
     n, dim = F.shape[:2]
-    group = Group(material, dim, 0.1, 0, n, np.zeros_like(F))
+    (group,) = groups_of([material], dim, 0.1, [np.zeros_like(F)])
     dtype = ti.field(float, ()).to_numpy().dtype
     H = (F - np.eye(dim)).astype(dtype)
     L = (np.zeros_like(F) if dt_L is None else dt_L).astype(dtype)
     tau, psi, tau_zz = np.zeros(F.shape, dtype), np.zeros(n, dtype), np.zeros(n, dtype)
-    apply(group, dim, H, L, tau, psi, tau_zz)
+    apply(group.law, dim, H, L, tau, psi, tau_zz)
     return tau.astype(float), psi.astype(float), tau_zz.astype(float)
 
 
@@ -127,9 +127,9 @@ def test_small_strain_is_hookes_law(rng, material, dim, precision):
     eps = 0.5 * (H + H.swapaxes(1, 2))
     hooke = 2 * c.mu * eps + c.lam * np.trace(eps, axis1=1, axis2=2)[:, None, None] * np.eye(dim)
     dtype = {"f32": np.float32, "f64": np.float64}[precision]
-    group = Group(material, dim, 0.1, 0, len(H), np.zeros_like(H))
+    (group,) = groups_of([material], dim, 0.1, [np.zeros_like(H)])
     tau, psi, tau_zz = np.zeros(H.shape, dtype), np.zeros(len(H), dtype), np.zeros(len(H), dtype)
-    apply(group, dim, H.astype(dtype), H.astype(dtype), tau, psi, tau_zz)
+    apply(group.law, dim, H.astype(dtype), H.astype(dtype), tau, psi, tau_zz)
     assert np.abs(tau - hooke).max() < 1e-5 * np.abs(hooke).max()
     lateral = c.lam * np.trace(eps, axis1=1, axis2=2)
     assert np.abs(tau_zz - lateral).max() < 1e-5 * np.abs(lateral).max()
