@@ -82,7 +82,7 @@ class Stepping:
         simulation, cpu, wall = self.simulation, 0.0, 0.0
         while not (simulation.is_done or enough()):
             cpu_before, wall_before = time.process_time(), time.perf_counter()
-            landed = simulation.step()
+            landed = simulation.advance()
             cpu += time.process_time() - cpu_before
             wall += time.perf_counter() - wall_before
             if landed:

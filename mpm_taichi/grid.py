@@ -1,6 +1,7 @@
 """Nodes of a box of cells: a 1-D field of four-lane records, addressed by one linear index."""
 
 from itertools import product
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -35,10 +36,12 @@ class Grid:
         mirrors = basis.support > 2 and not basis.modified
         self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
         self.ghost = self.support = basis.support
+        self.records = tuple(range(1 + increment))
         self.lines = list(product(range(basis.support), repeat=self.dim - 1))
         # Rows and planes are PAD nodes longer than the box: strides of a power of two would put
         # the lines of a stencil into the same few sets of the first-level cache.
         self.shape = tuple(n + 1 + 2 * self.ghost for n in cells)
+        self.lines_along = [prod(self.shape) // n for n in self.shape]
         self.extent = (self.shape[0], *(n + PAD for n in self.shape[1:]))
         strides = [1]
         for n in reversed(self.extent[1:]):

@@ -44,7 +44,8 @@ class BodyPoints:
 
 class Law:
     """What the materials of one law share on the device, so that it is compiled once: `constants`
-    [materials], and the history `state` of their particles, the first of which is `begin`.
+    [materials], the particles ends[k] ... ends[k + 1] - 1 of material k, and the history `state` of
+    all from `begin` on.
 
     H [n, dim, dim] of each material's particles is where the history starts."""
 
@@ -55,6 +56,8 @@ class Law:
         for k, values in enumerate(numbers):
             for name, number in values.items():
                 self.constants[k][name] = number
+        self.ends = ti.field(int, len(materials) + 1)
+        self.ends.from_numpy(begin + np.cumsum([0, *map(len, H)], dtype=np.int32))
         history = materials[0].state(dim)
         self.has_state = bool(history)
         if self.has_state:

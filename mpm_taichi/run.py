@@ -122,6 +122,8 @@ class Interruption:
     """A recorder that ends the run between two steps after Ctrl-C or SIGTERM, so that results and
     report are whole.  A second signal acts at once."""
 
+    every_steps = None
+
     def __enter__(self):
         self.number, self.before = None, {}
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -145,6 +147,8 @@ class Interruption:
 
 class Progressing:
     """A recorder that shows how far the run is: a bar on a terminal, else a line now and then."""
+
+    every_steps = None
 
     def __init__(self, console: Console, began: float):
         self.console, self.began = console, began

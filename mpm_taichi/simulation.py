@@ -7,6 +7,7 @@ import numpy as np
 
 from . import runtime, stages
 from .errors import InputError, RunError
+from .kernels.whole_steps import Clock
 from .particles import BodyPoints
 from .scene import Scene
 from .schedules import EverySeconds, even_step
@@ -19,6 +20,9 @@ PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
 
 MOST_THREADS = 1024
+
+MOST_TOGETHER = 64
+"""Steps in one launch: a signal waits for its end."""
 
 
 def body_points(scene, index, X, V0) -> BodyPoints:
@@ -71,6 +75,8 @@ class Simulation:
         bodies = [body_points(scene, index, p.x, p.V0) for index, p in enumerate(points)]
         self.initial_position = np.concatenate([body.undeformed for body in bodies])
         method = scene.method
+        given = None if scene.time.step == "auto" else scene.time.step
+        self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
         try:
             self.solver = Solver(
                 bodies, scene.domain.cells, scene.cell_size, method.basis_class,
@@ -78,7 +84,7 @@ class Simulation:
                 mass_cutoff=method.mass_cutoff, periodic=scene.domain.periodic,
                 stress_update=method.stress_update, filter_order=method.filter_order,
                 flip_part=method.flip_part, body_force=scene.field(scene.body_force),
-                threads=self.threads, atomic=device != "cpu",
+                pace=self.time_step.pace, threads=self.threads, atomic=device != "cpu",
             )  # fmt: skip
         except (RuntimeError, MemoryError):  # Taichi's allocator says no more than that
             raise InputError(
@@ -89,8 +95,6 @@ class Simulation:
             "mass": self.solver.particles.to_numpy("m"),
             "initial_volume": self.solver.particles.to_numpy("V0"),
         }
-        given = None if scene.time.step == "auto" else scene.time.step
-        self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
         self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
@@ -141,34 +145,71 @@ class Simulation:
 
     def step(self) -> bool:
         """One time step.  Returns whether it has landed on an output."""
+        return self.advance(1)
+
+    def advance(self, most: int = MOST_TOGETHER) -> bool:
+        """Up to `most` time steps, fewer where an output is due.  Returns whether they have landed
+        on one."""
+        take = self._take_whole_steps if self.solver.is_whole else self._take_step
+        before, landing = self.step_count, False
+        while not landing and self.step_count - before < most:
+            landing = take(most - (self.step_count - before))
+            self.__dict__.pop("snapshot", None)
+            self._stop_if_lost()
+            self.output_count += landing
+        return landing
+
+    def _take_step(self, _most) -> bool:
         dt = self.dt
         landing = self.time + 1.5 * dt > self.next_output
         time = self.next_output if landing else self.time + dt
         self.dt = self.solver.step(
             self.time, dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
         )
-        self.time, self.step_count = time, self.step_count + 1
-        self.last_dt = dt
-        self.time_step.note(dt, self.limit)
-        self.__dict__.pop("snapshot", None)
-        self._stop_if_lost()
-        self.output_count += landing
+        self._note_steps(time, [dt])
         return landing
 
+    def _take_whole_steps(self, most) -> bool:
+        more = self.output_count + 1 < self.outputs.count
+        clock = Clock(
+            self.time, self.dt, self.next_output,
+            self.outputs.time(self.output_count + 2) if more else 0.0,
+            self.time_step.last, self.solver.drift,
+        )  # fmt: skip
+        self.solver.take_whole_steps(clock, min(most, MOST_TOGETHER))
+        self.dt, self.time_step.last = clock.dt, clock.last
+        self._note_steps(clock.time, clock.lengths.tolist())
+        landing = clock.time == self.next_output
+        if not clock.is_good:
+            self._fitting(clock.last, clock.time)  # says what is wrong with it
+        return landing
+
+    def _note_steps(self, time, lengths):
+        self.time, self.step_count, self.last_dt = time, self.step_count + len(lengths), lengths[-1]
+        for dt in lengths:
+            self.time_step.note(dt, self.limit)
+
     def run(self, recorders=()) -> None:
-        """Step to the end; each recorder sees the start, every step and the end."""
+        """Step to the end.  Each recorder sees the start, every output and every step; one that has
+        `every_steps` at least those that it divides, or none between outputs if it is None."""
         for recorder in recorders:
             recorder.record(self, is_output=True)
         while not self.is_done:
-            landed = self.step()
+            landed = self.advance(self._steps_to_next_record(recorders))
             for recorder in recorders:
                 recorder.record(self, is_output=landed)
+
+    def _steps_to_next_record(self, recorders):
+        if self.step_count == 0:  # the first step compiles
+            return 1
+        wanted = {getattr(recorder, "every_steps", 1) or MOST_TOGETHER for recorder in recorders}
+        return min((every - self.step_count % every for every in wanted), default=MOST_TOGETHER)
 
     def frames(self):
         """Step to the end, pausing at each output: `for sim in simulation.frames()`."""
         yield self
         while not self.is_done:
-            if self.step():
+            if self.advance():
                 yield self
 
     @cached_property

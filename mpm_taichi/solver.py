@@ -16,8 +16,13 @@ from .kernels.residual import take_residual
 from .kernels.sort import sort
 from .kernels.start_moments import start_moments
 from .kernels.update_stress import update_stress
+from .kernels.whole_steps import Clock, whole_steps
 from .kernels.wrap import wrap
 from .particles import Particles
+from .transfers import FlipPart
+
+FEW = 8192
+"""Particles up to which a step on one thread takes less time than the launches of its stages."""
 
 
 class Solver:
@@ -28,17 +33,20 @@ class Solver:
     particle are taken as empty.  `stress_update` is usl, musl or usf; `flip_part(dt)` the FLIP part
     of a blend, `filter_order` that of XPIC, `body_force` a field b(X, x, t) [m/s^2] or None.
 
+    With the rule `pace` of the length of steps few particles take whole steps in one launch,
+    whatever `threads` is.
+
     `threads` workers share the work on a CPU, and the result does not depend on it; `atomic` is the
     form for GPUs."""
 
     def __init__(
         self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
         stress_update="usl", flip_part=None, filter_order=1, body_force=None,
-        threads=1, atomic=False,
+        pace=None, threads=1, atomic=False,
     ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
         self.stress_update, self.body_force = stress_update, body_force
-        self.flip_part, self.filter_order = flip_part or (lambda dt: 1.0), filter_order
+        self.flip_part, self.filter_order = flip_part or FlipPart(), filter_order
         self.particles = Particles(
             bodies, basis, transfer, dx, keeps_pic=stress_update == "musl", body_force=body_force
         )
@@ -50,6 +58,11 @@ class Solver:
         self.gravity[None] = list(gravity)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
+        few = self.particles.count <= FEW and not atomic
+        self.is_whole = pace is not None and few and stress_update == "usl"
+        self.is_whole = self.is_whole and not transfer.filtered
+        if self.is_whole:
+            self.pace = self._pace_field(pace)
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -62,6 +75,17 @@ class Solver:
             part = 0.0 if smooth else 16 * np.finfo(self.particles.dtype).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
+
+    def _pace_field(self, pace):
+        """The rule on the device, with the FLIP part of a blend; f64 in every run."""
+        numbers = pace._asdict() | {
+            "flip_ratio": self.flip_part.ratio,
+            "flip_rate": self.flip_part.rate,
+        }
+        field = ti.Struct.field(dict.fromkeys(numbers, ti.f64), shape=())
+        for name, number in numbers.items():
+            field[None][name] = number
+        return field
 
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
@@ -109,6 +133,16 @@ class Solver:
             self.update(dt, dt_next, velocity=False)
         self.drift += dt * speed / self.grid.dx
         return dt_next
+
+    def take_whole_steps(self, clock: Clock, most: int):
+        """Up to `most` steps as `step` would take them, in one launch."""
+        self.sort_if_due()
+        clock.drift = self.drift
+        whole_steps(
+            self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
+            self.body_force, self.pace, clock, most,
+        )  # fmt: skip
+        self.drift = clock.drift
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

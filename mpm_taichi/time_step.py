@@ -17,12 +17,30 @@ one step to the next: steps that follow the phase of an oscillation would feed e
 Steps are cut further, at most in half, to land on outputs."""
 
 
+HUGE = 1e300
+"""A limit [s] that limits nothing."""
+
+
 class Limit(NamedTuple):
     """A step of `seconds` is the longest that `name` allows, because of `cause`."""
 
     name: str
     seconds: float
     cause: str
+
+
+class Pace(NamedTuple):
+    """The rule of the length of a step as numbers, for the device: `given` [s], or 0 and the limits
+    acoustic / (wave_speed + |v|), travel / |v| and constant [s], times `safety`, at most `growth`
+    times the last."""
+
+    given: float
+    safety: float
+    acoustic: float  # m
+    wave_speed: float  # m/s
+    travel: float  # m
+    constant: float  # s
+    growth: float
 
 
 def limits(materials, basis, transfer, dx, gravity, speed, half_width) -> list[Limit]:
@@ -63,6 +81,18 @@ class TimeStep:
         return limits(
             used, method.basis_class, method.transfer_class,
             self.scene.cell_size, self.scene.gravity_vector, speed, self.half_width,
+        )  # fmt: skip
+
+    @property
+    def pace(self) -> Pace:
+        """The same rule as `choose`."""
+        dx, at_rest = self.scene.cell_size, self.limits(0.0)
+        fixed = [limit.seconds for limit in at_rest if limit.name != "acoustic"]
+        acoustic = 0.9 * self.scene.method.basis_class.bulk_limit * dx
+        wave_speed = max(acoustic / limit.seconds for limit in at_rest if limit.name == "acoustic")
+        return Pace(
+            given=self.given or 0.0, safety=self.safety, acoustic=acoustic, wave_speed=wave_speed,
+            travel=0.5 * dx, constant=min(fixed, default=HUGE), growth=GROWTH,
         )  # fmt: skip
 
     def choose(self, speed: float) -> float:

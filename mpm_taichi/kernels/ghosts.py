@@ -9,8 +9,6 @@ gas at rest stream.  A wall that material may leave reflects only where its node
 The axes are folded one after the other over whole planes, ghost nodes included: corners come right.
 """
 
-from math import prod
-
 import taichi as ti
 
 from ..runtime import Template
@@ -124,7 +122,7 @@ def exchange_lines(
 def exchange_all(grid, walls, gravity, dt, updated, fill, records):
     for axis in grid.folded:
         if grid.is_near_end(axis):
-            lines = prod(grid.shape) // grid.shape[axis]
+            lines = grid.lines_along[axis]
             exchange_lines(
                 axis, grid, walls, gravity, dt, updated, fill, records, lines, grid.workers(lines)
             )  # fmt: skip
@@ -134,11 +132,11 @@ def exchange_all(grid, walls, gravity, dt, updated, fill, records):
 def fold_ghosts(grid, walls, gravity, dt, updated=False):
     """On return ghost nodes are empty, and what they had been given is with their images: before
     the grid update in all records, after it (`updated`) in the second one."""
-    records = (1,) if updated else tuple(range(1 + grid.increment))
+    records = (1,) if updated else grid.records
     exchange_all(grid, walls, gravity, dt, updated, False, records)
 
 
 @stage
 def fill_ghosts(grid, walls, gravity):
     """After the grid update.  On return ghost nodes are images of the nodes inside."""
-    exchange_all(grid, walls, gravity, 0.0, True, True, tuple(range(1 + grid.increment)))
+    exchange_all(grid, walls, gravity, 0.0, True, True, grid.records)

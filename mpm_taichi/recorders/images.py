@@ -9,6 +9,8 @@ class Images:
     """Pictures by the offscreen renderer.  Where the scene gives no range, the color scale is the
     widest that the run has shown so far."""
 
+    every_steps = None
+
     def __init__(self, folder: Path, simulation, style):
         folder.mkdir(exist_ok=True)
         self.folder, self.style = folder, style

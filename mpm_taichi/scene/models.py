@@ -14,7 +14,7 @@ from ..materials import Material
 from ..model import Model, Positive, Vector
 from ..sampling import Sampling
 from ..shapes import Shape
-from ..transfers import APICChoice, FLIPChoice, Transfer, XPICChoice
+from ..transfers import APICChoice, FLIPChoice, FlipPart, Transfer, XPICChoice
 from .checks import across
 
 VectorField = Annotated[list[Formula], Field(min_length=2, max_length=3)]
@@ -117,9 +117,10 @@ class Method(Model):
         """m of XPIC."""
         return self.transfer.order if isinstance(self.transfer, XPICChoice) else 1
 
-    def flip_part(self, dt: float) -> float:
-        """alpha of FLIP with a little PIC, in a step of length dt [s]."""
-        return self.transfer.flip_part(dt) if isinstance(self.transfer, FLIPChoice) else 1.0
+    @property
+    def flip_part(self) -> FlipPart:
+        """alpha of FLIP with a little PIC."""
+        return self.transfer.flip_part if isinstance(self.transfer, FLIPChoice) else FlipPart()
 
 
 class Time(Model):

@@ -19,7 +19,7 @@ the nodes return, is all that a transfer says:
 """
 
 from math import exp
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -33,6 +33,16 @@ from .tpic import TPIC
 from .xpic import XPIC
 
 TRANSFERS = (PIC, FLIP, FLIPBlend, XPIC, APIC, TPIC, MLS)
+
+
+class FlipPart(NamedTuple):
+    """alpha = ratio exp(- rate dt), the FLIP part of a step of length dt [s]; rate [1/s]."""
+
+    ratio: float = 1.0
+    rate: float = 0.0
+
+    def __call__(self, dt: float) -> float:
+        return self.ratio * exp(-self.rate * dt)
 
 
 class PICChoice(Model):
@@ -65,11 +75,11 @@ class FLIPChoice(Model):
     def transfer(self):
         return FLIP if self.relaxation_time is None and self.ratio is None else FLIPBlend
 
-    def flip_part(self, dt: float) -> float:
-        """alpha of a step of length dt [s]."""
+    @property
+    def flip_part(self) -> FlipPart:
         if self.relaxation_time is not None:
-            return exp(-dt / self.relaxation_time)
-        return 1.0 if self.ratio is None else self.ratio
+            return FlipPart(rate=1 / self.relaxation_time)
+        return FlipPart() if self.ratio is None else FlipPart(self.ratio)
 
 
 class XPICChoice(Model):

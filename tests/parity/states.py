@@ -12,6 +12,7 @@ from mpm_taichi.reference import transfers as twin_transfers
 from mpm_taichi.reference.kernels.stencil import weigh
 from mpm_taichi.reference.solver import Solver as TwinSolver
 from mpm_taichi.solver import Solver
+from mpm_taichi.transfers import FlipPart
 
 CELLS = {2: (7, 9), 3: (6, 7, 8)}
 DX = 0.1
@@ -54,23 +55,24 @@ def walls(dim, rules):
     )
 
 
-def build(rng, dim, basis, transfer, ends=(), **options):
-    """The same bodies in the fast solver and in the twin."""
+def build(rng, dim, basis, transfer, ends=(), pace=None, **options):
+    """The same bodies in the fast solver, which takes whole steps if it is given a `pace`, and in
+    the twin."""
     common = list(bodies(rng, dim, ends))
     gravity = rng.normal(size=dim)
     closed = options.get("periodic", ())
     part = float(rng.random())
-    options |= {"flip_part": lambda dt: part, "filter_order": 3}
+    options |= {"flip_part": FlipPart(part), "filter_order": 3}
 
-    def make(solver, b, t, rules):
+    def make(solver, b, t, rules, **of_its_own):
         sides = tuple(wall for wall in walls(dim, rules) if wall.axis not in closed)
         return solver(
             common, CELLS[dim], DX, getattr(b, basis), getattr(t, transfer), sides, gravity,
-            **options,
+            **options, **of_its_own,
         )  # fmt: skip
 
     return (
-        make(Solver, bases, transfers, boundaries),
+        make(Solver, bases, transfers, boundaries, pace=pace),
         make(TwinSolver, twin_bases, twin_transfers, twin_boundaries),
     )
 

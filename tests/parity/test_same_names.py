@@ -9,8 +9,10 @@ import pytest
 import mpm_taichi
 
 PACKAGE = Path(mpm_taichi.__file__).parent
-MEMORY_AND_THREADS = {"kernels/blocks.py", "kernels/rows.py", "kernels/sort.py"}
-"""Modules about memory and threads: the twin has neither."""
+MEMORY_AND_THREADS = {
+    f"kernels/{name}.py" for name in ("blocks", "rows", "sort", "time_step", "whole_steps")
+}
+"""Modules about memory, threads and launches: the twin has none."""
 
 STATED_IN_SCENES = {"materials/elastic.py"}
 """Parameters that scenes give: the twin takes them from the scene's models."""
@@ -104,7 +106,7 @@ def test_laws_have_the_same_functions(path):
 
 def test_the_step_has_the_same_parameters():
     ours, theirs = modules("solver.py")
-    memory_and_threads = {"threads", "atomic"}
+    memory_and_threads = {"pace", "threads", "atomic"}
     kept = [p for p in parameters(ours.Solver) if p not in memory_and_threads]
     assert kept == parameters(theirs.Solver)
     for name in ("start", "step"):

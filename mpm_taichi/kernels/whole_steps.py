@@ -1,0 +1,140 @@
+"""Several steps in one launch and on one thread, for small scenes.
+
+A launch and its hand-off to the threads cost some 50 microseconds, and a step has eight: more than
+all the work of a thousand particles.  Here the stages follow each other without a return to Python,
+in the order of `Solver.step` for USL, and the device chooses the length of the next step."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import taichi as ti
+
+from ..runtime import Array, Template
+from ..schedules import MOST
+from ..stages import stage
+from .body_force import push_share
+from .clear import clear_share
+from .g2p import gather_share
+from .ghosts import exchange_share
+from .grid_update import update_share
+from .p2g import scatter_share
+from .time_step import even_step, longest_step
+from .update_stress import stress_share
+
+TIME, DT, TARGET, AFTER, LAST, DRIFT, TAKEN, ON, GOOD = range(9)
+
+
+@dataclass
+class Clock:
+    """Where a run is, and how far it may go: `time` [s], the length `dt` [s] of the next step, the
+    longest that the rule allowed `last`; `target` and `after`, the times of the next two outputs
+    (after: 0 if there is none); the `drift` [cells] of particles since they were sorted.
+
+    `lengths` [s] are those of the steps taken; `is_good`: the next is a number, not too short."""
+
+    time: float
+    dt: float
+    target: float
+    after: float
+    last: float
+    drift: float
+    lengths: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    is_good: bool = True
+
+
+@ti.func
+def is_near_end(axis: Template, grid: Template):
+    """Whether particles reach ghost nodes along an axis."""
+    near = True
+    if ti.static(axis not in grid.periodic):
+        low, high = grid.lowest[None][axis] - 1, grid.highest[None][axis] + grid.support
+        near = low < grid.ghost or high > grid.ghost + grid.cells[axis]
+    return near
+
+
+@ti.func
+def exchange(
+    grid: Template, walls: Template, gravity: Template, dt, updated: Template, fill: Template
+):
+    """Fold or fill the ghost nodes that particles reach."""
+    for axis in ti.static(grid.folded):
+        if is_near_end(axis, grid):
+            exchange_share(
+                axis, grid, walls, gravity, dt, updated, fill, grid.records,
+                grid.lines_along[axis], 0, 1,
+            )  # fmt: skip
+
+
+@ti.func
+def take_step(
+    particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
+    gravity: Template, body_force: Template, pace: Template, clock: Template,
+):  # fmt: skip
+    time, dt, landing = clock[TIME], clock[DT], clock[TIME] + 1.5 * clock[DT] > clock[TARGET]
+    h = ti.cast(dt, float)
+    if ti.static(particles.layout.force):
+        push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
+    grid.speed_squared[None] = 0.0
+    clear_share(grid, 0, 1)
+    for color in range(2):
+        scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
+    exchange(grid, walls, gravity, h, False, False)
+    update_share(grid, walls, gravity, h, 0, 1)
+    exchange(grid, walls, gravity, 0.0, True, True)
+    gather_share(particles, grid, basis, transfer, "all", 0, 1)
+    speed = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
+    longest = longest_step(pace, speed, clock[LAST])
+    end = clock[TARGET] if landing else time + dt
+    goal = clock[AFTER] if landing else clock[TARGET]
+    dt_next = even_step(goal - end, longest) if goal > 0.0 else longest
+    alpha = ti.cast(pace[None].flip_ratio * ti.exp(-pace[None].flip_rate * dt), float)
+    for law in ti.static(particles.laws):
+        for material in range(law.constants.shape[0]):
+            stress_share(
+                particles, law, material, grid, transfer, law.ends[material],
+                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, 0, 1,
+            )  # fmt: skip
+    clock[TIME], clock[DT], clock[LAST] = end, dt_next, longest
+    clock[DRIFT] += dt * speed * grid.constants[None].inv_dx
+    clock[GOOD] = 0.0
+    if goal == 0.0 or goal - end < float(MOST) * longest:
+        clock[GOOD] = 1.0
+    if (
+        landing
+        or clock[GOOD] == 0.0
+        or clock[DRIFT] >= 0.99
+        or particles.lost[None] < particles.count
+    ):
+        clock[ON] = 0.0
+
+
+@ti.kernel
+def take_steps(
+    particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
+    gravity: Template, body_force: Template, pace: Template, most: int, clock: Array,
+    lengths: Array,
+):  # fmt: skip
+    ti.loop_config(serialize=True)
+    for n in range(most):
+        if clock[ON] > 0.0:
+            lengths[n] = clock[DT]
+            clock[TAKEN] = n + 1
+            take_step(
+                particles, grid, basis, transfer, walls, gravity, body_force, pace, clock
+            )  # fmt: skip
+
+
+@stage
+def whole_steps(particles, grid, basis, transfer, walls, gravity, body_force, pace, clock, most):
+    """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
+    is lost or the next step is no number.  On return the clock says how far that was."""
+    numbers = np.array([
+        clock.time, clock.dt, clock.target, clock.after, clock.last, clock.drift, 0, 1, 1,
+    ])  # fmt: skip
+    lengths = np.zeros(most)
+    take_steps(
+        particles, grid, basis, transfer, walls, gravity, body_force, pace, most, numbers, lengths
+    )
+    clock.time, clock.dt, clock.last, clock.drift = map(float, numbers[[TIME, DT, LAST, DRIFT]])
+    clock.is_good = bool(numbers[GOOD])
+    clock.lengths = lengths[: int(numbers[TAKEN])]

@@ -1,0 +1,100 @@
+"""Whole steps in one launch, as few particles take them, against the twin step by step."""
+
+import numpy as np
+import pytest
+
+from mpm_taichi.bases import CubicBSpline, Linear, QuadraticBSpline
+from mpm_taichi.expressions import Expressions
+from mpm_taichi.kernels.whole_steps import Clock
+from mpm_taichi.schedules import even_step
+from mpm_taichi.time_step import GROWTH, Pace
+from mpm_taichi.transfers import FLIP, MLS, TPIC, FLIPBlend
+
+from .states import build, largest_difference, particle_fields
+
+TOLERANCE = 1e-12
+"""As in test_stages.py."""
+
+FIRST, SECOND = 7e-4, 1.1e-3
+"""Times of two outputs [s]."""
+
+
+def pace(given):
+    """Where `given` is 0, steps that the speed decides, some 0.3 ms long, growth the first."""
+    return Pace(
+        given=given, safety=0.4, acoustic=0.09, wave_speed=90.0, travel=0.05, constant=8e-4,
+        growth=GROWTH,
+    )  # fmt: skip
+
+
+def by_hand(twin, rule, dt, last):
+    """Steps of the twin to both outputs by the rule written out: their lengths, and the next."""
+    time, lengths, targets = 0.0, [], [FIRST, SECOND]
+    while targets:
+        start, landing = time, time + 1.5 * dt > targets[0]
+        time = targets.pop(0) if landing else time + dt
+
+        def choose(speed, time=time):
+            nonlocal last
+            allowed = min(0.09 / (90.0 + speed), 8e-4, 0.05 / speed)
+            last = rule.given or min(0.4 * allowed, GROWTH * last)
+            return even_step(targets[0] - time, last) if targets else last
+
+        lengths.append(dt)
+        dt = twin.step(start, dt, choose)
+    return lengths, dt
+
+
+CASES = [
+    (2, QuadraticBSpline, MLS, 0.0, False),
+    pytest.param(2, QuadraticBSpline, FLIPBlend, 0.0, True, marks=pytest.mark.slow),
+    pytest.param(2, CubicBSpline, TPIC, 0.0, False, marks=pytest.mark.slow),
+    pytest.param(3, Linear, FLIP, 2.5e-4, False, marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize(("dim", "basis", "transfer", "given", "forced"), CASES)
+def test_whole_steps_equal_the_twin(exact, rng, dim, basis, transfer, given, forced):
+    """Up to two outputs, with walls, gravity, two laws, and a body force that depends on place and
+    time: the same lengths, outputs reached exactly, the same particles.  The steps of one launch
+    end at an output; there are more of them than one launch may take."""
+    rule = pace(given)
+    force = Expressions(["3*sin(X + 2*y) - t", "x*Y + 40*t**2", "x"][:dim], dim=dim)
+    fast, twin = build(
+        rng, dim, basis.__name__, transfer.__name__, pace=rule,
+        body_force=force if forced else None,
+    )  # fmt: skip
+    assert fast.is_whole
+    dt = even_step(FIRST, 2.5e-4)
+    fast.start(dt)
+    twin.start(dt)
+    lengths, dt_next = by_hand(twin, rule, dt, 2.5e-4)
+
+    clock = Clock(0.0, dt, FIRST, SECOND, last=2.5e-4, drift=fast.drift)
+    found = []
+    while clock.time < SECOND:
+        fast.take_whole_steps(clock, 3)
+        found += clock.lengths.tolist()
+        assert clock.is_good
+        if clock.time == FIRST:
+            clock.target, clock.after = SECOND, 0.0
+    assert clock.time == SECOND
+    assert found == pytest.approx(lengths, rel=TOLERANCE)
+    assert clock.dt == pytest.approx(dt_next, rel=TOLERANCE)
+    for name, (ours, theirs) in particle_fields(fast, twin).items():
+        assert largest_difference(ours, theirs) < TOLERANCE, name
+
+
+def test_a_step_that_is_no_number_is_told(exact, rng):
+    """A velocity of 1e200 m/s: its square is infinite and the next step 0, so the clock says so
+    after one step, and goes no further."""
+    fast, _ = build(rng, 2, "QuadraticBSpline", "MLS", pace=pace(0.0))
+    rows = fast.particles.rows.to_numpy()
+    rows[0, 0, :2] = 1e200
+    fast.particles.rows.from_numpy(rows)
+    fast.start(1e-4)
+    clock = Clock(0.0, 1e-4, FIRST, SECOND, last=1e-4, drift=fast.drift)
+    fast.take_whole_steps(clock, 50)
+    assert len(clock.lengths) == 1
+    assert not clock.is_good
+    assert not np.isfinite(clock.dt) or clock.dt < 1e-100
