@@ -153,6 +153,9 @@ class Particles:
         if basis.extended:
             self.half_width: Any = ti.field(float, self.count)
             self.carried.append((self.half_width, reals))
+        self.carried = [(field, scratch, 0) for field, scratch in self.carried] + [
+            (law.state, law.scratch, law.begin) for law in self.laws if law.has_state
+        ]
 
         self.dtype = np.dtype(self.x.to_numpy().dtype.name)
         m = np.concatenate([body.material.density * body.V0 for body in bodies])[id]

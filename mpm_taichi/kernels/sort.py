@@ -62,21 +62,25 @@ def find_order(particles: Template, grid: Template, basis: Template, g: int, beg
                 grid.count[i] = 0
 
 
+@ti.func
+def move(from_field: Template, i, to_field: Template, j):
+    """Element i of one field to element j of another, or all records of a particle."""
+    if ti.static(len(from_field.shape) > 1):
+        for r in ti.static(range(from_field.shape[1])):
+            to_field[j, r] = from_field[i, r]
+    else:
+        to_field[j] = from_field[i]
+
+
 @ti.kernel
-def permute(field: Template, scratch: Template, order: Template, begin: int, width: Template):
-    """field[i] <- field[order[begin + i] - begin]; `width` records per particle, 0 if 1-D."""
-    for i in range(field.shape[0]):
-        if ti.static(width):
-            for r in ti.static(range(width)):
-                scratch[i, r] = field[order[begin + i] - begin, r]
-        else:
-            scratch[i] = field[order[begin + i] - begin]
-    for i in range(field.shape[0]):
-        if ti.static(width):
-            for r in ti.static(range(width)):
-                field[i, r] = scratch[i, r]
-        else:
-            field[i] = scratch[i]
+def permute(particles: Template):
+    """field[i] <- field[order[begin + i] - begin] of all that is carried; in one kernel, since each
+    takes a while to compile."""
+    for field, scratch, begin in ti.static(particles.carried):
+        for i in range(field.shape[0]):
+            move(field, particles.order[begin + i] - begin, scratch, i)
+        for i in range(field.shape[0]):
+            move(scratch, i, field, i)
 
 
 @ti.kernel
@@ -140,10 +144,6 @@ def sort(particles, grid, basis):
     forget(grid)
     for g, group in enumerate(particles.groups):
         find_order(particles, grid, basis, g, group.begin, group.end)
-    for law in particles.laws:
-        if law.has_state:
-            permute(law.state, law.scratch, particles.order, law.begin, 0)
-    for field, scratch in particles.carried:
-        permute(field, scratch, particles.order, 0, field.shape[1] if len(field.shape) > 1 else 0)
+    permute(particles)
     plan(particles, grid)
     grid.note_reach()
