@@ -31,11 +31,6 @@ def elastic_energy(snapshot):
     return (snapshot.initial_volume * snapshot.energy_density).sum()
 
 
-def gravitational_energy(snapshot, gravity):
-    """- sum m g . x [J], zero at the origin."""
-    return -(snapshot.mass * (snapshot.position @ np.asarray(gravity, float))).sum()
-
-
 def body_motion(snapshot, ranges):
     """Center of mass [m] and mean velocity [m/s] of each body, shape [bodies, dim] each; body b
     has the particles ranges[b] to ranges[b + 1]."""

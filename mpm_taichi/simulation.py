@@ -7,6 +7,7 @@ import numpy as np
 
 from . import runtime, stages
 from .errors import InputError, RunError
+from .kernels.sums import sums
 from .kernels.whole_steps import Clock
 from .particles import BodyPoints
 from .scene import Scene
@@ -155,6 +156,7 @@ class Simulation:
         while not landing and self.step_count - before < most:
             landing = take(most - (self.step_count - before))
             self.__dict__.pop("snapshot", None)
+            self.__dict__.pop("sums", None)
             self._stop_if_lost()
             self.output_count += landing
         return landing
@@ -227,6 +229,17 @@ class Simulation:
             )
         return snapshot
 
+    @cached_property
+    def sums(self) -> dict[str, np.ndarray]:
+        """Of each body now (kernels/sums.py); computed once a step at most, for a small part of the
+        cost of a snapshot."""
+        solver = self.solver
+        with np.errstate(all="ignore"):
+            found = sums(solver.particles, solver.grid, solver.basis, solver.transfer, self.ranges)
+        if not all(np.isfinite(values).all() for values in found.values()):
+            _ = self.snapshot  # names the particle that is no number
+        return found
+
     def _stop_if_lost(self):
         lost = self.solver.particles.lost[None]
         if lost < self.ranges[-1]:
@@ -264,6 +277,11 @@ class Simulation:
         body = int(np.searchsorted(self.ranges, number, side="right")) - 1
         spec = self.scene.bodies[body]
         return f"particle {number} (body {spec.name}, material {spec.material})"
+
+    @cached_property
+    def body_mass(self) -> np.ndarray:
+        """Mass of each body [kg], shape [bodies]."""
+        return np.add.reduceat(self._constant["mass"], self.ranges[:-1])
 
     @cached_property
     def body_of_particle(self) -> np.ndarray:

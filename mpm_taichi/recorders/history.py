@@ -3,8 +3,6 @@
 import csv
 from pathlib import Path
 
-from .. import diagnostics
-
 
 class History:
     """A row every `every_steps` steps and at each output, in SI units."""
@@ -33,22 +31,24 @@ class History:
         self._file.close()
 
     def _row(self, simulation) -> dict[str, float]:
-        snapshot, axes = simulation.snapshot, "xyz"[: simulation.scene.dimension]
+        sums, axes = simulation.sums, "xyz"[: simulation.scene.dimension]
         turning = ("",) if len(axes) == 2 else ("_x", "_y", "_z")
-        momentum = diagnostics.momentum(snapshot)
-        angular = diagnostics.angular_momentum(snapshot)
+        mass = simulation.body_mass
+        momentum, angular = sums["momentum"].sum(axis=0), sums["angular_momentum"].sum(axis=0)
         row = {
-            "time": snapshot.time,
-            "step": snapshot.step,
+            "time": simulation.time,
+            "step": simulation.step_count,
             "time_step": simulation.last_dt,
-            "mass": snapshot.mass.sum(),
+            "mass": mass.sum(),
             **{f"momentum_{axis}": p for axis, p in zip(axes, momentum, strict=True)},
             **{f"angular_momentum{axis}": L for axis, L in zip(turning, angular, strict=True)},
-            "kinetic_energy": diagnostics.kinetic_energy(snapshot),
-            "elastic_energy": diagnostics.elastic_energy(snapshot),
-            "gravitational_energy": diagnostics.gravitational_energy(snapshot, self.gravity),
+            "kinetic_energy": sums["kinetic_energy"].sum(),
+            "elastic_energy": sums["elastic_energy"].sum(),
+            # - sum m g . x, zero at the origin
+            "gravitational_energy": -(sums["mass_moment"].sum(axis=0) @ self.gravity),
         }
-        centers, velocities = diagnostics.body_motion(snapshot, simulation.ranges)
+        centers = sums["mass_moment"] / mass[:, None]
+        velocities = sums["momentum"] / mass[:, None]
         for body, center, velocity in zip(
             simulation.scene.bodies, centers, velocities, strict=True
         ):

@@ -17,6 +17,7 @@ from mpm_taichi.kernels import (
     grid_update,
     p2g,
     sort,
+    sums,
     update_stress,
     wrap,
 )  # fmt: skip
@@ -26,6 +27,7 @@ from mpm_taichi.reference.kernels import g2p as twin_g2p
 from mpm_taichi.reference.kernels import ghosts as twin_ghosts
 from mpm_taichi.reference.kernels import grid_update as twin_grid_update
 from mpm_taichi.reference.kernels import p2g as twin_p2g
+from mpm_taichi.reference.kernels import sums as twin_sums
 from mpm_taichi.reference.kernels import update_stress as twin_update_stress
 from mpm_taichi.reference.kernels import wrap as twin_wrap
 
@@ -101,6 +103,10 @@ def test_steps_and_stages_equal_the_twin(exact, rng, dim, basis, transfer):
     shown = twin_evaluate.evaluate(Q, N, twin.basis)
     for name, ours in evaluate.evaluate(P, G, fast.basis).items():
         assert largest_difference(ours, shown[name]) < TOLERANCE, name
+    ranges = np.array([0, *sorted(rng.choice(np.arange(1, P.count), 3, replace=False)), P.count])
+    added = twin_sums.sums(Q, N, twin.basis, twin.transfer, ranges)
+    for name, ours in sums.sums(P, G, fast.basis, fast.transfer, ranges).items():
+        assert largest_difference(ours, added[name]) < TOLERANCE, name
     assert P.lost[None] == Q.lost
     assert np.isfinite(P.to_numpy("x")).all()
 
