@@ -15,7 +15,7 @@ from .errors import InputError, RunError
 
 COMMANDS = {
     "run": "run a scene (the default: `mpm_taichi SCENE`)",
-    "check": "validate and seed a scene, and show the plan: particles, time step, steps",
+    "check": "validate and seed a scene, and show the plan: particles, memory, time step, steps",
     "converge": "run a scene at successive resolutions: errors, observed order, picture",
     "advise": "which schemes were shown to reach an error, and how far the scene is from where",
     "schema": "print the JSON Schema of scene files, for editors",

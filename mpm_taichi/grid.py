@@ -8,36 +8,22 @@ import numpy as np
 import taichi as ti
 
 from .errors import InputError
+from .fields import FieldPlan
 from .kernels.blocks import BLOCK, CHUNK, GATE
 
 PAD = 4  # nodes
 
 
-class Grid:
-    """Node i at (i - ghost) dx holds (momentum [kg m/s], mass [kg]) after P2G and (velocity [m/s],
-    mass) after the grid update, in lanes 0 .. dim - 1 and dim.  With `increment` it has a second
-    record, at i + apart: (impulse of the stress [kg m/s], 0), then (v - v_old [m/s], 0).
+class NodeLayout:
+    """Where nodes lie in memory, and the fields that a grid of them has, by name.
 
-    The closed domain [0, size] has `cells` cells and, around them, ghost nodes as wide as the
-    stencil.  `groups` is the number of materials, `mass_cutoff` the mass [kg] up to which a node
-    counts as empty, `walls` and `periodic` the sides with a rule and the axes that close on
-    themselves."""
+    The box [0, cells] has ghost nodes around it, as wide as the stencil.  `groups` is the number of
+    materials; with `increment` each node has a second record."""
 
-    def __init__(
-        self, cells, dx, basis, groups, increment, mass_cutoff, walls, periodic, threads, atomic
-    ):
-        self.dim, self.cells, self.dx = len(cells), tuple(cells), dx
-        self.increment, self.threads, self.atomic = increment, threads, atomic
-        # See kernels/blocks.py.
-        self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
-        self.periodic = tuple(periodic)
-        self.walled = tuple((wall.axis, wall.upper) for wall in walls)
-        # Hat functions and modified splines give nothing to the nodes behind a wall.
-        mirrors = basis.support > 2 and not basis.modified
-        self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
+    def __init__(self, cells, basis, groups, increment):
+        self.dim, self.cells, self.increment = len(cells), tuple(cells), increment
         self.ghost = self.support = basis.support
         self.records = tuple(range(1 + increment))
-        self.lines = list(product(range(basis.support), repeat=self.dim - 1))
         # Rows and planes are PAD nodes longer than the box: strides of a power of two would put
         # the lines of a stencil into the same few sets of the first-level cache.
         self.shape = tuple(n + 1 + 2 * self.ghost for n in cells)
@@ -58,20 +44,54 @@ class Grid:
                 f"domain.cells: {' x '.join(map(str, cells))} cells need {length:.2e} nodes, more "
                 "than the 2^31 that an index can count: take fewer, larger cells"
             )
-        self.node = ti.Vector.field(4, float, length)
         # Slabs of fixed width along axis 0, so that results do not depend on the number of threads.
         # Two slabs of one color share no node while particles are within a cell of where the sort
         # found them.
         self.slab = basis.support + 1
         self.slabs = 2 * -(-self.extent[0] // (2 * self.slab))
-        self.start = ti.field(int, (groups, self.slabs + 1))  # first particle [group, slab]
-        self.share = ti.field(float, self.slabs)  # part of all particles before a slab's middle
-        # Chunks of nodes: those where stencils begin, those that particles can reach, their list.
         self.chunks = -(-self.nodes // CHUNK)
-        self.count = ti.field(int, self.mask + 1)  # of the sort, 0 outside of it
-        self.occupied = ti.field(int, (self.mask + 1) // CHUNK)
-        self.reached = ti.field(int, (self.mask + 1) // CHUNK)
-        self.active = ti.field(int, self.chunks)
+        whole_chunks = FieldPlan(int, (), ((self.mask + 1) // CHUNK,))
+        self.fields = {
+            "node": FieldPlan(float, (4,), (length,)),
+            "start": FieldPlan(int, (), (groups, self.slabs + 1)),
+            "share": FieldPlan(float, (), (self.slabs,)),
+            "count": FieldPlan(int, (), (self.mask + 1,)),
+            "occupied": whole_chunks,
+            "reached": whole_chunks,
+            "active": FieldPlan(int, (), (self.chunks,)),
+        }
+
+
+class Grid(NodeLayout):
+    """Node i at (i - ghost) dx holds (momentum [kg m/s], mass [kg]) after P2G and (velocity [m/s],
+    mass) after the grid update, in lanes 0 .. dim - 1 and dim.  With `increment` it has a second
+    record, at i + apart: (impulse of the stress [kg m/s], 0), then (v - v_old [m/s], 0).
+
+    The closed domain [0, size] has `cells` cells.  `mass_cutoff` is the mass [kg] up to which a
+    node counts as empty, `walls` and `periodic` the sides with a rule and the axes that close on
+    themselves."""
+
+    def __init__(
+        self, cells, dx, basis, groups, increment, mass_cutoff, walls, periodic, threads, atomic
+    ):
+        super().__init__(cells, basis, groups, increment)
+        self.dx, self.threads, self.atomic = dx, threads, atomic
+        # See kernels/blocks.py.
+        self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
+        self.periodic = tuple(periodic)
+        self.walled = tuple((wall.axis, wall.upper) for wall in walls)
+        # Hat functions and modified splines give nothing to the nodes behind a wall.
+        mirrors = basis.support > 2 and not basis.modified
+        self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
+        self.lines = list(product(range(basis.support), repeat=self.dim - 1))
+        fields = {name: plan.field() for name, plan in self.fields.items()}
+        self.node = fields["node"]
+        self.start = fields["start"]  # first particle [group, slab]
+        self.share = fields["share"]  # part of all particles before a slab's middle
+        self.count = fields["count"]  # of the sort, 0 outside of it
+        # Chunks of nodes: those where stencils begin, those that particles can reach, their list.
+        self.occupied, self.reached = fields["occupied"], fields["reached"]
+        self.active = fields["active"]
         self.active_count: Any = ti.field(int, ())
         self.placed: Any = ti.field(int, ())
         self.lowest: Any = ti.Vector.field(self.dim, int, ())  # first node of a stencil

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import taichi as ti
 
+from .fields import SCRATCH, particle_fields, state_fields, uses_undeformed_place
 from .kernels.rows import RowLayout
 from .materials import Material
+from .runtime import real_type
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,8 @@ class BodyPoints:
         return self._zeros() if self.L is None else self.L
 
     def _zeros(self):
-        return np.zeros((*self.x.shape, self.x.shape[1]))
+        """Which take no memory."""
+        return np.broadcast_to(0.0, (*self.x.shape, self.x.shape[1]))
 
 
 class Law:
@@ -58,24 +61,16 @@ class Law:
                 self.constants[k][name] = number
         self.ends = ti.field(int, len(materials) + 1)
         self.ends.from_numpy(begin + np.cumsum([0, *map(len, H)], dtype=np.int32))
-        history = materials[0].state(dim)
-        self.has_state = bool(history)
+        plans = state_fields(materials[0], dim, sum(map(len, H)))
+        self.has_state = bool(plans)
         if self.has_state:
             starts = [material.start(h) for material, h in zip(materials, H, strict=True)]
-            self.state = self._state_field(history, sum(map(len, H)))
-            self.scratch = self._state_field(history, sum(map(len, H)))
-            for name in history:
+            elements = {name: plan.element for name, plan in plans.items()}
+            self.state = ti.Struct.field(elements, shape=sum(map(len, H)))
+            self.scratch = ti.Struct.field(elements, shape=sum(map(len, H)))
+            for name in plans:
                 values = np.concatenate([start[name] for start in starts])
                 self.state.get_member_field(name).from_numpy(values)
-
-    def _state_field(self, history, count):
-        kinds = {
-            name: ti.types.matrix(len(start), len(start[0]), float)
-            if np.ndim(start) == 2
-            else float
-            for name, start in history.items()
-        }
-        return ti.Struct.field(kinds, shape=count)
 
 
 @dataclass(frozen=True)
@@ -105,6 +100,26 @@ def groups_of(materials, dim, dx, H) -> list[Group]:
     return groups
 
 
+def grouped(bodies):
+    """The bodies with those of a material, and the materials of a law, side by side; these
+    materials; and the id of each particle."""
+    materials = list(dict.fromkeys(body.material for body in bodies))
+    laws = list(dict.fromkeys(map(type, materials)))
+    materials.sort(key=lambda material: laws.index(type(material)))
+    order = sorted(range(len(bodies)), key=lambda k: materials.index(bodies[k].material))
+    ends = np.cumsum([len(body.x) for body in bodies])
+    id = [np.arange(ends[k] - len(bodies[k].x), ends[k], dtype=np.int32) for k in order]
+    return [bodies[k] for k in order], materials, np.concatenate(id)
+
+
+def displacement_gradients(bodies):
+    """H [n, dim, dim] of all of them; takes no memory where none starts deformed."""
+    if any(body.H is not None for body in bodies):
+        return np.concatenate([body.displacement_gradient for body in bodies])
+    dim = bodies[0].x.shape[1]
+    return np.broadcast_to(0.0, (sum(len(body.x) for body in bodies), dim, dim))
+
+
 class Particles:
     """x [m], H = F - I [-], m [kg], V0 [m^dim], id (place in the order of the scene), and the rows
     that travel between particles and nodes (kernels/rows.py); where the scene needs them,
@@ -118,65 +133,64 @@ class Particles:
         self.count = sum(len(body.x) for body in bodies)
         self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None)
         self.transfer, self.basis, self.dx = transfer, basis, dx
-        materials = list(dict.fromkeys(body.material for body in bodies))
-        laws = list(dict.fromkeys(map(type, materials)))
-        materials.sort(key=lambda material: laws.index(type(material)))
+        self.dtype = real_type()
+        bodies, materials, id = grouped(bodies)
         self.group_count = len(materials)
-        kind = np.repeat([materials.index(body.material) for body in bodies],
-                         [len(body.x) for body in bodies])  # fmt: skip
-        id = np.argsort(kind, kind="stable")
-        ends = np.cumsum(np.bincount(kind, minlength=len(materials)))
-        H = np.concatenate([body.displacement_gradient for body in bodies])[id]
-        self.groups = groups_of(materials, self.dim, dx, np.split(H, ends[:-1]))
+        self.groups = groups_of(
+            materials, self.dim, dx,
+            [displacement_gradients([b for b in bodies if b.material == m]) for m in materials],
+        )  # fmt: skip
         self.laws = list(dict.fromkeys(group.law for group in self.groups))
-        self.x = ti.Vector.field(self.dim, float, self.count)
-        self.H = ti.Matrix.field(self.dim, self.dim, float, self.count)
-        self.m = ti.field(float, self.count)
-        self.V0 = ti.field(float, self.count)
-        self.id = ti.field(int, self.count)
-        self.rows = ti.Vector.field(4, float, (self.count, self.layout.count))
+        plans = particle_fields(self.count, self.dim, self.layout.count, basis, body_force)
+        fields = {name: plan.field() for name, plan in plans.items()}
+        self.x, self.H, self.rows = fields["x"], fields["H"], fields["rows"]
+        self.m, self.V0 = fields["m"], fields["V0"]
+        self.id, self.order = fields["id"], fields["order"]
         self.lost: Any = ti.field(int, ())
-        self.order = ti.field(int, self.count)
-        reals, whole = ti.field(float, self.count), ti.field(int, self.count)
-        self.carried = [  # what the sort moves, each with room for it
-            (self.x, ti.Vector.field(self.dim, float, self.count)),
-            (self.H, ti.Matrix.field(self.dim, self.dim, float, self.count)),
-            (self.m, reals),
-            (self.V0, reals),
-            (self.id, whole),
-            (self.rows, ti.Vector.field(4, float, self.rows.shape)),
-        ]
+        scratch = {name: fields[name + SCRATCH] for name in ("x", "H", "m", "id", "rows")}
+        self.carried = [(fields[name], room) for name, room in scratch.items()]
+        self.carried.append((self.V0, scratch["m"]))
         self.X = self.x
-        if body_force is not None and body_force.variables & {"X", "Y", "Z"}:
-            self.X = ti.Vector.field(self.dim, float, self.count)
-            self.carried.append((self.X, self.carried[0][1]))
+        if uses_undeformed_place(body_force):
+            self.X = fields["X"]
+            self.carried.append((self.X, scratch["x"]))
         if basis.extended:
-            self.half_width: Any = ti.field(float, self.count)
-            self.carried.append((self.half_width, reals))
+            self.half_width: Any = fields["half_width"]
+            self.carried.append((self.half_width, scratch["m"]))
         self.carried = [(field, scratch, 0) for field, scratch in self.carried] + [
             (law.state, law.scratch, law.begin) for law in self.laws if law.has_state
         ]
+        self._fill(bodies, id)
 
-        self.dtype = np.dtype(self.x.to_numpy().dtype.name)
-        m = np.concatenate([body.material.density * body.V0 for body in bodies])[id]
-        v = np.concatenate([body.v for body in bodies])[id]
-        V0 = np.concatenate([body.V0 for body in bodies])[id]
-        if self.X is not self.x:
-            self.X.from_numpy(np.concatenate([body.undeformed for body in bodies])[id])
-        if basis.extended:
-            self.half_width.from_numpy(0.5 * V0 ** (1 / self.dim) / dx)
-        self.x.from_numpy(np.concatenate([body.x for body in bodies])[id])
-        self.H.from_numpy(H)
-        self.V0.from_numpy(V0)
-        self.m.from_numpy(m)
+    def _fill(self, bodies, id):
+        """Values at the start.  Each array is made in the precision of the run, and is gone before
+        the next."""
+
+        def put(field, values):
+            field.from_numpy(np.concatenate(list(map(values, bodies)), dtype=self.dtype))
+
         self.id.from_numpy(id)
         self.lost[None] = self.count
-        L = np.concatenate([body.velocity_gradient for body in bodies])[id]
-        self.rows.from_numpy(self.gathered(m, v, L))
+        put(self.x, lambda body: body.x)
+        if any(body.H is not None for body in bodies):
+            put(self.H, lambda body: body.displacement_gradient)
+        put(self.V0, lambda body: body.V0)
+        put(self.m, lambda body: body.material.density * body.V0)
+        if self.X is not self.x:
+            put(self.X, lambda body: body.undeformed)
+        if self.basis.extended:
+            put(self.half_width, lambda body: 0.5 * body.V0 ** (1 / self.dim) / self.dx)
+        put(
+            self.rows,
+            lambda body: self.gathered(
+                body.material.density * body.V0, body.v, body.velocity_gradient
+            ),
+        )
 
     def gathered(self, m, v, L):
-        """Rows as after a gather of velocities v and their gradient L, which serves as C too."""
-        rows = np.zeros((self.count, self.layout.count, 4))
+        """Rows [n, rows, 4] as after a gather of velocities v and their gradient L, which serves as
+        C too."""
+        rows = np.zeros((len(m), self.layout.count, 4), self.dtype)
         rows[:, 0, : self.dim] = v
         rows[:, self.layout.pic, : self.dim] = v
         inverse_moment = self.basis.inverse_moment or 1.0

@@ -45,6 +45,7 @@ class Report:
                 ],
             },
             "seeding": [dataclasses.asdict(report) for report in simulation.seeding],
+            "memory": simulation.memory.summary(),
             "timing": {
                 "first_calls_seconds": dict(stages.first_calls),
                 "stage_seconds": dict(stages.seconds),

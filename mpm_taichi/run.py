@@ -87,6 +87,7 @@ def check(scene, options, console: Console) -> int:
     """Seed a scene and show what a run would be."""
     simulation = Simulation(scene, options.device, options.precision, options.threads)
     announce(simulation, console)
+    console.print(simulation.memory.describe(), soft_wrap=True)
     steps = scene.time.end / simulation.dt
     console.print(
         f"about {steps:.0f} steps to t = {scene.time.end:g} s, {simulation.outputs.count} outputs "

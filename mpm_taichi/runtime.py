@@ -1,12 +1,14 @@
-"""The one call of `ti.init`, and two annotations of kernel arguments."""
+"""The one call of `ti.init`, its precision, and two annotations of kernel arguments."""
 
 import contextlib
 import io
 import os
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import taichi as ti
-from taichi.lang.impl import current_cfg
+from taichi.lang import impl
+from taichi.lang.util import to_numpy_type
 
 from .errors import InputError
 
@@ -26,8 +28,18 @@ def default_precision(device: str) -> str:
 def widest_float():
     """For sums, once Taichi has started: f64 where every device of the kind has it, on Vulkan and
     Metal the precision of the run."""
-    chosen = current_cfg()
+    chosen = impl.current_cfg()
     return chosen.default_fp if chosen.arch in (ti.vulkan, ti.metal) else ti.f64
+
+
+def real_type() -> np.dtype:
+    """Of `float` in a kernel, since `start`."""
+    return np.dtype(to_numpy_type(impl.get_runtime().default_fp))
+
+
+def stop() -> None:
+    """All fields are gone, and their memory is free."""
+    ti.reset()
 
 
 def start(device: str = "cpu", precision: str = "f64", threads: int = 1, **options) -> None:

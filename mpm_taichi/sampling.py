@@ -45,12 +45,15 @@ class Lattice(Model):
             raise ValueError(f"a lattice needs one of spacing and per_cell (got {given})")
         return self
 
-    def points(self, shape: Shape, cell_size: float, dimension: int) -> Points:
+    def distance(self, cell_size: float) -> float:
+        """h [m]."""
         if self.per_cell is not None:
-            h = cell_size / self.per_cell
-        else:
-            assert self.spacing is not None
-            h = self.spacing
+            return cell_size / self.per_cell
+        assert self.spacing is not None
+        return self.spacing
+
+    def points(self, shape: Shape, cell_size: float, dimension: int) -> Points:
+        h = self.distance(cell_size)
         low, high = shape.bounds()
         with np.errstate(over="ignore"):
             first, end = np.floor(low / h), np.ceil(high / h)

@@ -6,6 +6,7 @@ import numpy as np
 
 from .errors import InputError
 from .points import Points
+from .sampling import LARGEST_LATTICE, Lattice
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,20 @@ class SeedingReport:
             f"smallest {self.smallest_volume:.2g}, "
             f"{self.particles_per_cell:.1f} particles per cell (least {self.fewest_per_cell})"
         )
+
+
+def expected_counts(scene) -> list[int]:
+    """About how many particles each body will have, V / h^dim: of lattices with a number that can
+    be; 0 of meshes, whose number is known when they are made."""
+    counts = []
+    for body in scene.bodies:
+        count = 0.0
+        if isinstance(body.particles, Lattice) and body.shape is not None:
+            with np.errstate(all="ignore"):
+                h = np.float64(body.particles.distance(scene.cell_size))
+                count = np.float64(body.shape.volume()) / h**scene.dimension
+        counts.append(int(count) if count <= LARGEST_LATTICE else 0)
+    return counts
 
 
 def seed(scene) -> tuple[list[Points], list[SeedingReport]]:

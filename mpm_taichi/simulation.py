@@ -9,10 +9,11 @@ from . import runtime, stages
 from .errors import InputError, RunError
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
+from .memory import planned_memory, refuse_too_much
 from .particles import BodyPoints
 from .scene import Scene
 from .schedules import EverySeconds, even_step
-from .seeding import refuse_outside, seed
+from .seeding import expected_counts, refuse_outside, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
 from .time_step import TimeStep
@@ -51,7 +52,7 @@ def body_points(scene, index, X, V0) -> BodyPoints:
                 f"{X[folded][0].tolist()}, where det(I + grad u) is not above 0"
             )
         L = L @ np.linalg.inv(F)
-    return BodyPoints(material, x, v, V0, X, H, L)
+    return BodyPoints(material, x, v, V0, X, H, L if L.any() else None)
 
 
 class Simulation:
@@ -64,8 +65,13 @@ class Simulation:
     def __init__(self, scene: Scene, device="cpu", precision=None, threads=None):
         self.scene, self.device = scene, device
         self.precision = precision or scene.method.precision or runtime.default_precision(device)
+        runtime.stop()
+        refuse_too_much(scene, expected_counts(scene), device, self.precision)
         points, self.seeding = seed(scene)
-        self.ranges = np.cumsum([0, *(len(p.x) for p in points)])
+        counts = [len(p.x) for p in points]
+        refuse_too_much(scene, counts, device, self.precision)
+        self.memory = planned_memory(scene, counts, self.precision)
+        self.ranges = np.cumsum([0, *counts])
         if threads and device != "cpu":
             raise InputError(f"--threads: is for --device cpu ({device} has its own)")
         self.threads = threads or self._worthwhile_threads()

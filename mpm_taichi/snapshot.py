@@ -6,6 +6,9 @@ import numpy as np
 
 from .kernels.evaluate import evaluate
 
+BLOCK = 2**14
+"""Particles at a time, so that what lies between the fields and a Snapshot takes little memory."""
+
 
 @dataclass(frozen=True)
 class Snapshot:
@@ -40,32 +43,54 @@ class Snapshot:
         return np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2)))
 
 
+def host_bytes(dim: int, real: int) -> int:
+    """Per particle, the most that output takes on the host, beside the fields: a Snapshot with the
+    places at the start, float64, and the table it is made from, in numbers of `real` bytes."""
+    return 8 * (3 * dim + 2 * dim**2 + 12) + real * (3 * dim + 3 * dim**2 + 2)
+
+
 def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: int) -> Snapshot:
     """`constant`: `mass` and `initial_volume`, which do not change."""
+    dim, n = solver.grid.dim, solver.particles.count
+    values = evaluate(solver.particles, solver.grid, solver.basis)
+    sizes = {
+        "position": (dim,),
+        "velocity": (dim,),
+        "deformation_gradient": (dim, dim),
+        "cauchy_stress": (3, 3),
+        "energy_density": (),
+        "spin": (dim, dim),
+    }
+    whole = {name: np.zeros((n, *size)) for name, size in sizes.items()}
+    for begin in range(0, n, BLOCK):
+        part = slice(begin, begin + BLOCK)
+        of_part = {name: value[part].astype(float) for name, value in values.items()}
+        for name, value in _derived(solver, of_part).items():
+            whole[name][part] = value
+    return Snapshot(time=time, step=step, **whole, **constant)
+
+
+def _derived(solver, values):
+    """What a Snapshot has of some particles."""
     grid, dim = solver.grid, solver.grid.dim
-    values = evaluate(solver.particles, grid, solver.basis)
     F = values["H"] + np.eye(dim)
     sigma = np.zeros((len(F), 3, 3))
     sigma[:, :dim, :dim] = values["tau"]
     if dim == 2:
         sigma[:, 2, 2] = values["tau_zz"]
     sigma /= np.linalg.det(F)[:, None, None]
-    spin = np.zeros_like(F)
+    derived = {
+        "position": values["x"],
+        "velocity": values["v"],
+        "deformation_gradient": F,
+        "cauchy_stress": sigma,
+        "energy_density": values["psi"],
+    }
     if solver.transfer.affine:
         # A = m C, in the MLS form (where D is one number) plus a symmetric stress: no skew part.
         D = values["D"]
         if solver.transfer.moments:
             D = np.full_like(D, 1 / (solver.basis.inverse_moment or 1.0))
         moments = grid.dx**2 * D[:, :, None] * values["A"].swapaxes(1, 2)
-        spin = 0.5 * (moments - moments.swapaxes(1, 2))
-    return Snapshot(
-        time=time,
-        step=step,
-        position=values["x"],
-        velocity=values["v"],
-        deformation_gradient=F,
-        cauchy_stress=sigma,
-        energy_density=values["psi"],
-        spin=spin,
-        **constant,
-    )
+        derived["spin"] = 0.5 * (moments - moments.swapaxes(1, 2))
+    return derived

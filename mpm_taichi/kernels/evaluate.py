@@ -44,7 +44,8 @@ def evaluate_particles(
 def evaluate(particles, grid, basis):
     """x [m], v [m/s], D (moment of each axis, dx^2) [n, dim]; H, tau (Kirchhoff stress, Pa), A
     (affine momentum, kg/s; if a basis has moments that vary, times D) [n, dim, dim]; psi (elastic
-    energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]."""
+    energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]; all in the precision of
+    the run."""
     n, dim = particles.count, grid.dim
     table = np.zeros((n, 3 * dim + 3 * dim**2 + 2), particles.dtype)
     for group in particles.groups:
@@ -54,7 +55,6 @@ def evaluate(particles, grid, basis):
     vectors = {"x": 0, "v": dim, "D": 2 * dim}
     matrices = {"H": 3 * dim, "tau": 3 * dim + dim**2, "A": 3 * dim + 2 * dim**2}
     scalars = {"psi": -2, "tau_zz": -1}
-    table = table.astype(float)
     return (
         {name: table[:, at : at + dim] for name, at in vectors.items()}
         | {name: table[:, at : at + dim**2].reshape(n, dim, dim) for name, at in matrices.items()}
