@@ -34,7 +34,7 @@ def by_hand(twin, rule, dt, last):
         start, landing = time, time + 1.5 * dt > targets[0]
         time = targets.pop(0) if landing else time + dt
 
-        def choose(speed, time=time):
+        def choose(speed: float, time=time) -> float:
             nonlocal last
             allowed = min(0.09 / (90.0 + speed), 8e-4, 0.05 / speed)
             last = rule.given or min(0.4 * allowed, GROWTH * last)

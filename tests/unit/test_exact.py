@@ -13,7 +13,7 @@ from mpm_taichi.errors import InputError
 from mpm_taichi.exact import ExactSolution
 from mpm_taichi.kernels.respond import respond
 from mpm_taichi.materials import LinearElastic, NeoHookean
-from mpm_taichi.particles import Group
+from mpm_taichi.particles import groups_of
 from mpm_taichi.recorders import Errors
 from mpm_taichi.reference import materials as twins
 from mpm_taichi.reference.kernels.respond import respond as respond_twin
@@ -237,7 +237,7 @@ def test_response_is_that_of_the_twin(exact, rng, dim, law):
     )  # fmt: skip
     H = rng.uniform(-0.2, 0.2, (50, dim, dim))
     start = material.start(H)
-    group = Group(material, dim, 0.1, 0, len(H), np.zeros_like(H))
+    (group,) = groups_of([material], dim, 0.1, [np.zeros_like(H)])
     c = SimpleNamespace(**material.constants(0.1))
     twin = SimpleNamespace(law=getattr(twins, law.__name__), constants=c)
     for ours, theirs in zip(respond(group, H, start), respond_twin(twin, H, start), strict=True):

@@ -110,7 +110,7 @@ def test_shared_scratch(tmp_path):
         tmp_path, 2, "basis: gimp, transfer: {type: tpic}", "f64", more="body_force: [X, 0]\n"
     )
     particles = Simulation(scene).solver.particles
-    room = {id(field): scratch for field, scratch in particles.carried}
+    room = {id(field): scratch for field, scratch, _begin in particles.carried}
     assert room[id(particles.V0)] is room[id(particles.m)] is room[id(particles.half_width)]
     assert room[id(particles.X)] is room[id(particles.x)]
     assert len(room) == 8
