@@ -148,18 +148,18 @@ class Particles:
         self.id, self.order = fields["id"], fields["order"]
         self.lost: Any = ti.field(int, ())
         scratch = {name: fields[name + SCRATCH] for name in ("x", "H", "m", "id", "rows")}
-        self.carried = [(fields[name], room) for name, room in scratch.items()]
-        self.carried.append((self.V0, scratch["m"]))
+        self.carried = [(fields[name], room, 0) for name, room in scratch.items()]
+        self.carried.append((self.V0, scratch["m"], 0))
         self.X = self.x
         if uses_undeformed_place(body_force):
             self.X = fields["X"]
-            self.carried.append((self.X, scratch["x"]))
+            self.carried.append((self.X, scratch["x"], 0))
         if basis.extended:
             self.half_width: Any = fields["half_width"]
-            self.carried.append((self.half_width, scratch["m"]))
-        self.carried = [(field, scratch, 0) for field, scratch in self.carried] + [
-            (law.state, law.scratch, law.begin) for law in self.laws if law.has_state
-        ]
+            self.carried.append((self.half_width, scratch["m"], 0))
+        for law in self.laws:
+            if law.has_state:
+                self.carried.append((law.state, law.scratch, law.begin))
         self._fill(bodies, id)
 
     def _fill(self, bodies, id):

@@ -1,5 +1,7 @@
 """Whole steps in one launch, as few particles take them, against the twin step by step."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -27,21 +29,23 @@ def pace(given):
     )  # fmt: skip
 
 
-def by_hand(twin, rule, dt, last):
-    """Steps of the twin to both outputs by the rule written out: their lengths, and the next."""
-    time, lengths, targets = 0.0, [], [FIRST, SECOND]
+def next_length(speed, given, chosen, remaining):
+    """The rule written out; `chosen`: what it has allowed so far, `remaining` to an output [s]."""
+    allowed = min(0.09 / (90.0 + speed), 8e-4, 0.05 / speed)
+    chosen.append(given or min(0.4 * allowed, GROWTH * chosen[-1]))
+    return even_step(remaining, chosen[-1]) if remaining else chosen[-1]
+
+
+def by_hand(twin, given, dt, last):
+    """Steps of the twin to both outputs: their lengths, and the next."""
+    time, lengths, targets, chosen = 0.0, [], [FIRST, SECOND], [last]
     while targets:
         start, landing = time, time + 1.5 * dt > targets[0]
         time = targets.pop(0) if landing else time + dt
-
-        def choose(speed: float, time=time) -> float:
-            nonlocal last
-            allowed = min(0.09 / (90.0 + speed), 8e-4, 0.05 / speed)
-            last = rule.given or min(0.4 * allowed, GROWTH * last)
-            return even_step(targets[0] - time, last) if targets else last
-
+        remaining = targets[0] - time if targets else 0.0
         lengths.append(dt)
-        dt = twin.step(start, dt, choose)
+        rule = partial(next_length, given=given, chosen=chosen, remaining=remaining)
+        dt = twin.step(start, dt, rule)
     return lengths, dt
 
 
@@ -58,17 +62,16 @@ def test_whole_steps_equal_the_twin(exact, rng, dim, basis, transfer, given, for
     """Up to two outputs, with walls, gravity, two laws, and a body force that depends on place and
     time: the same lengths, outputs reached exactly, the same particles.  The steps of one launch
     end at an output; there are more of them than one launch may take."""
-    rule = pace(given)
     force = Expressions(["3*sin(X + 2*y) - t", "x*Y + 40*t**2", "x"][:dim], dim=dim)
     fast, twin = build(
-        rng, dim, basis.__name__, transfer.__name__, pace=rule,
+        rng, dim, basis.__name__, transfer.__name__, pace=pace(given),
         body_force=force if forced else None,
     )  # fmt: skip
     assert fast.is_whole
     dt = even_step(FIRST, 2.5e-4)
     fast.start(dt)
     twin.start(dt)
-    lengths, dt_next = by_hand(twin, rule, dt, 2.5e-4)
+    lengths, dt_next = by_hand(twin, given, dt, 2.5e-4)
 
     clock = Clock(0.0, dt, FIRST, SECOND, last=2.5e-4, drift=fast.drift)
     found = []
