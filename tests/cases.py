@@ -15,7 +15,7 @@ from mpm_taichi.bases import (
     QuadraticBoundary,
     QuadraticBSpline,
 )  # fmt: skip
-from mpm_taichi.transfers import APIC, FLIP, MLS, PIC, TPIC, TRANSFERS, XPIC
+from mpm_taichi.transfers import APIC, FLIP, MLS, PIC, TPIC, TRANSFERS, XPIC, FLIPBlend
 
 
 def works(basis, transfer):
@@ -27,8 +27,11 @@ def works(basis, transfer):
 
 FIRST = [(Linear, FLIP), (QuadraticBSpline, MLS)]
 KINDS = [(QuadraticBSpline, XPIC), (QuadraticBSpline, APIC), (GIMP, TPIC), (CubicBoundary, TPIC)]
-OLD = [(QuadraticBSpline, PIC), (QuadraticBSpline, FLIP), (Linear, TPIC)]
-"""What others of the suite differ from in one part."""
+LIKE_OTHERS = [
+    (QuadraticBSpline, PIC), (QuadraticBSpline, FLIP), (QuadraticBSpline, FLIPBlend),
+    (QuadraticBSpline, TPIC), (QuadraticBoundary, TPIC), (Linear, TPIC),
+]  # fmt: skip
+"""In 3D these differ from others of the suite in one part that does not depend on dimension."""
 PAIRS = [(basis, transfer) for basis in BASES for transfer in TRANSFERS if works(basis, transfer)]
 EACH = [
     (basis, transfer)
@@ -42,7 +45,7 @@ def _case(dim, basis, transfer):
     marks = []
     if not (pair in FIRST or (dim == 2 and pair in KINDS)):
         marks = [pytest.mark.slow]
-    if pair not in EACH or (dim == 3 and pair in OLD):
+    if pair not in EACH or (dim == 3 and pair in LIKE_OTHERS):
         marks.append(pytest.mark.campaign)
     return pytest.param(
         dim, basis, transfer, id=f"{dim}D-{basis.name}-{transfer.__name__}", marks=marks
