@@ -18,7 +18,7 @@ def test_textbook_form_is_the_same_method(fast, monkeypatch, dim):
     (other order of additions, ln J by another formula)."""
     monkeypatch.syspath_prepend(str(BENCHMARKS))
     from textbook import Textbook  # pyright: ignore[reportMissingImports]
-    from throughput import block  # pyright: ignore[reportMissingImports]
+    from workload import block  # pyright: ignore[reportMissingImports]
 
     from mpm_taichi.bases import QuadraticBSpline
     from mpm_taichi.materials import NeoHookean
@@ -64,6 +64,8 @@ def test_throughput_prints_a_table_and_json(tmp_path):
         assert f"3D f32 {name}" in result.stdout
         assert all(ns > 0 for ns in form["stages"].values())
         assert f"{form['total']:.1f}" in result.stdout
+        assert 0 < form["shares"]["memory"] < 1
+        assert form["first_step_seconds"] > 0
 
 
 @pytest.fixture
