@@ -9,10 +9,10 @@ import numpy as np
 from . import diagnostics
 from .errors import InputError, RunError
 from .kernels.respond import respond
-from .materials import LinearElastic, NeoHookean
+from .materials import FixedCorotated, LinearElastic, NeoHookean
 from .particles import groups_of
 
-ELASTIC = (LinearElastic, NeoHookean)
+ELASTIC = (LinearElastic, NeoHookean, FixedCorotated)
 """Laws whose stress and energy follow from the gradient of the displacement.  For a linear elastic
 material the strain is its symmetric part: right as long as it is small."""
 

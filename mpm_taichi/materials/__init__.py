@@ -19,8 +19,9 @@ from typing import Annotated
 
 from pydantic import Field
 
+from .fixed_corotated import FixedCorotated
 from .linear_elastic import LinearElastic
 from .neo_hookean import NeoHookean
 
-MATERIALS = (LinearElastic, NeoHookean)
-Material = Annotated[LinearElastic | NeoHookean, Field(discriminator="type")]
+MATERIALS = (LinearElastic, NeoHookean, FixedCorotated)
+Material = Annotated[LinearElastic | NeoHookean | FixedCorotated, Field(discriminator="type")]

@@ -9,7 +9,7 @@ import pytest
 import taichi as ti
 
 from mpm_taichi import runtime
-from mpm_taichi.materials import LinearElastic, NeoHookean
+from mpm_taichi.materials import FixedCorotated, LinearElastic, NeoHookean
 from mpm_taichi.materials.invariants import log_volume_ratio, volume_strain
 from mpm_taichi.particles import groups_of
 from mpm_taichi.reference import materials as twin_materials
@@ -17,9 +17,10 @@ from mpm_taichi.runtime import Array, Template
 
 LAWS = [
     NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e5, poissons_ratio=0.3),
+    FixedCorotated(type="fixed_corotated", density=1000, youngs_modulus=1e5, poissons_ratio=0.3),
     LinearElastic(type="linear_elastic", density=1000, youngs_modulus=1e5, poissons_ratio=0.3),
 ]
-ROTATING = LAWS[:1]
+ROTATING = LAWS[:2]
 """Laws whose stress turns with the body: objective, with an energy that depends on F alone."""
 
 PRECISIONS = {"f64": 1e-12, "f32": 2e-5}

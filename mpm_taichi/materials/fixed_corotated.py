@@ -1,0 +1,43 @@
+"""Fixed-corotated solid: Stomakhin, Howes, Schroeder and Teran (2012), Energetically consistent
+invertible elasticity."""
+
+from typing import Literal
+
+import taichi as ti
+
+from .elastic import Elastic
+from .invariants import volume_strain
+from .polar import rotation
+
+
+class FixedCorotated(Elastic):
+    """psi = mu sum_i (s_i - 1)^2 + lam/2 (J - 1)^2;  tau = 2 mu (F - R) F^T + lam (J - 1) J I, with
+    F = R S and s_i the eigenvalues of S: if J < 0, the least singular value is taken negative.
+
+    Rotates with the body, and pushes back also when turned inside out; in plane strain the
+    out-of-plane stretch is 1."""
+
+    type: Literal["fixed_corotated"]
+
+    @staticmethod
+    @ti.func
+    def update(c, H, L, dt, s):
+        D = H - rotation(H)
+        tau = (2.0 * c.mu) * (D + D @ H.transpose())
+        pressure = FixedCorotated.out_of_plane_stress(c, H, s)
+        for d in ti.static(range(H.n)):
+            tau[d, d] += pressure
+            for e in ti.static(range(d)):
+                tau[d, e] = tau[e, d]  # symmetric to the last bit, and three sums are spared
+        return H, s, tau
+
+    @staticmethod
+    @ti.func
+    def energy_density(c, H, s):
+        return c.mu * (H - rotation(H)).norm_sqr() + 0.5 * c.lam * volume_strain(H) ** 2
+
+    @staticmethod
+    @ti.func
+    def out_of_plane_stress(c, H, s):
+        strain = volume_strain(H)
+        return c.lam * strain * (1.0 + strain)

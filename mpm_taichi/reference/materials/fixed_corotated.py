@@ -1,0 +1,26 @@
+"""Fixed-corotated solid: Stomakhin, Howes, Schroeder and Teran (2012), Energetically consistent
+invertible elasticity."""
+
+import numpy as np
+
+from .invariants import volume_strain
+from .polar import rotation
+
+
+class FixedCorotated:
+    """psi = mu sum_i (s_i - 1)^2 + lam/2 (J - 1)^2;  tau = 2 mu (F - R) F^T + lam (J - 1) J I."""
+
+    @staticmethod
+    def update(c, H, L, dt, s):
+        F, pressure = np.eye(len(H)) + H, FixedCorotated.out_of_plane_stress(c, H, s)
+        tau = 2 * c.mu * (H - rotation(H)) @ F.T + pressure * np.eye(len(H))
+        return H, s, tau
+
+    @staticmethod
+    def energy_density(c, H, s):
+        return c.mu * ((H - rotation(H)) ** 2).sum() + 0.5 * c.lam * volume_strain(H) ** 2
+
+    @staticmethod
+    def out_of_plane_stress(c, H, s):
+        strain = volume_strain(H)
+        return c.lam * strain * (1 + strain)
