@@ -69,9 +69,11 @@ class Solver:
     def _mass_cutoff(self, part, bodies, cells):
         """`part` of the lightest particle's mass [kg].  Not given: 0 for smooth bases.  Hat
         functions have gradients that stay where the weight goes to 0, so a weight of the size of
-        the rounding error of x / dx would take a full force."""
+        the rounding error of x / dx would take a full force; so do modified splines, but only where
+        a wall bends them."""
         if part is None:
-            smooth = self.basis.steepness(0.25) is not None
+            unbent = self.basis.modified and not self.walls
+            smooth = unbent or self.basis.steepness(0.25) is not None
             part = 0.0 if smooth else 16 * np.finfo(self.particles.dtype).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)

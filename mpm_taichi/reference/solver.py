@@ -40,7 +40,8 @@ class Solver:
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight
         where gradients do not vanish with the weight."""
         if part is None:
-            smooth = self.basis.steepness(0.25) is not None
+            unbent = self.basis.modified and not self.walls
+            smooth = unbent or self.basis.steepness(0.25) is not None
             part = 0.0 if smooth else 16 * np.finfo(float).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
