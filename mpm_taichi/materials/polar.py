@@ -75,10 +75,10 @@ def rotation_of(q):
     f = 0.0
     if length > 0.0:
         f = 2.0 / length
-    return f * ti.Matrix([
-        [-y * y - z * z, x * y - w * z, x * z + w * y],
-        [x * y + w * z, -x * x - z * z, y * z - w * x],
-        [x * z - w * y, y * z + w * x, -x * x - y * y],
+    return ti.Matrix([
+        [-f * (y * y + z * z), f * (x * y - w * z), f * (x * z + w * y)],
+        [f * (x * y + w * z), -f * (x * x + z * z), f * (y * z - w * x)],
+        [f * (x * z - w * y), f * (y * z + w * x), -f * (x * x + y * y)],
     ])  # fmt: skip
 
 

@@ -167,13 +167,13 @@ MATERIALS_AND_BODIES = [
     (
         "type: neo_hookean",
         "type: neohookean",
-        "12:5: materials.soft.type: must be one of linear_elastic, neo_hookean, fixed_corotated "
+        "12:5: materials.soft.type: must be one of fixed_corotated, linear_elastic, neo_hookean "
         "(got 'neohookean'); did you mean 'neo_hookean'?",
     ),
     (
         "    type: neo_hookean\n",
         "",
-        "11:3: materials.soft.type: is required: linear_elastic, neo_hookean or fixed_corotated",
+        "11:3: materials.soft.type: is required: fixed_corotated or linear_elastic or neo_hookean",
     ),
     (
         "    density: 1e3\n",
