@@ -48,7 +48,7 @@ def space_rotation(H):
         F[d, d] += 1.0
     s = trace_of_stretch(F)
     q = column(F, s)
-    if q[0] < 0.1 * s * s * s:
+    if q[0] < 0.2 * s * s * s:
         q = refined(best_column(F, s, q), F, s)
     return rotation_of(q)
 
@@ -103,11 +103,12 @@ def best_column(F, s, first):
 
 
 @ti.func
-def refined(q_first, F, s):
-    """Inverse iteration, in the frame that is known so far."""
-    q = q_first
+def refined(q_first, F, s_found):
+    """Inverse iteration, in the frame that is known so far, with s a little above the eigenvalue:
+    A is positive definite then, and its inverse more than rounding errors, also in a tie."""
+    q, s = q_first, 1.003 * s_found
     known, passes = 0.0, 0
-    while known < 0.1 * s * s * s and passes < 8:
+    while known < 0.2 * s * s * s and passes < 12:
         turn = column(F + rotation_of(q).transpose() @ F, s)
         length = turn.norm()
         if length > 0.0:
@@ -143,7 +144,7 @@ def trace_of_stretch(F):
         last = step
         e = s * s - first
         step = (e * e - 4.0 * second - 8.0 * J * s) / (4.0 * s * e - 8.0 * J)
-        if step < last:
+        if ti.abs(step) < last:
             s -= step
     return s
 
