@@ -9,10 +9,10 @@ import numpy as np
 from . import diagnostics
 from .errors import InputError, RunError
 from .kernels.respond import respond
-from .materials import FixedCorotated, LinearElastic, NeoHookean
+from .materials import FixedCorotated, Hencky, Hypoelastic, LinearElastic, NeoHookean
 from .particles import groups_of
 
-ELASTIC = (LinearElastic, NeoHookean, FixedCorotated)
+ELASTIC = (LinearElastic, Hypoelastic, NeoHookean, FixedCorotated, Hencky)
 """Laws whose stress and energy follow from the gradient of the displacement.  For a linear elastic
 material the strain is its symmetric part: right as long as it is small."""
 

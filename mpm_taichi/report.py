@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
 
-KEPT = r"mass|(angular_)?momentum(_[xyz])?|(kinetic|elastic|gravitational)_energy"
+KEPT = r"mass|(angular_)?momentum(_[xyz])?|(kinetic|elastic|dissipated|gravitational)_energy"
 PACKAGES = ("taichi", "numpy", "gmsh", "meshio", "pydantic")
 
 

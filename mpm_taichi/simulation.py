@@ -278,6 +278,11 @@ class Simulation:
         cut = self.solver.grid.cut[None]
         if cut:
             found["nodes below the mass cut-off, taken as empty (counted each step)"] = cut
+        for law in self.solver.particles.laws:
+            for name, words in law.kind.counters.items():
+                count = int(np.nansum(law.state.get_member_field(name).to_numpy(), dtype=float))
+                if count:
+                    found[f"{words} (counted each step)"] = count
         if self.time_step.too_long:
             found[f"steps longer than the {self.limit.name} limit"] = self.time_step.too_long
         return found

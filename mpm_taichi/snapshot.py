@@ -20,9 +20,11 @@ class Snapshot:
     velocity: np.ndarray  # [n, dim] m/s
     mass: np.ndarray  # [n] kg
     initial_volume: np.ndarray  # [n] m^dim
-    deformation_gradient: np.ndarray  # [n, dim, dim]
+    deformation_gradient: np.ndarray  # [n, dim, dim], of what is stored elastically if a law flows
     cauchy_stress: np.ndarray  # [n, 3, 3] Pa; in plane strain with its out-of-plane component
-    energy_density: np.ndarray  # [n] J/m^3, elastic, per reference volume
+    energy_density: np.ndarray  # [n] J/m^3, stored, per reference volume
+    volume_ratio: np.ndarray  # [n] volume by volume at the start
+    plastic_strain: np.ndarray  # [n] equivalent; 0 of laws that do not flow
     # Skew part of the moments of the affine velocity, sum_i w_i m r_i (C r_i)^T:
     spin: np.ndarray  # [n, dim, dim] kg m^2/s
 
@@ -30,6 +32,11 @@ class Snapshot:
     def speed(self) -> np.ndarray:
         """[n] m/s."""
         return np.linalg.norm(self.velocity, axis=1)
+
+    @property
+    def density(self) -> np.ndarray:
+        """[n] kg/m^3."""
+        return self.mass / (self.initial_volume * self.volume_ratio)
 
     @property
     def pressure(self) -> np.ndarray:
@@ -46,7 +53,7 @@ class Snapshot:
 def host_bytes(dim: int, real: int) -> int:
     """Per particle, the most that output takes on the host, beside the fields: a Snapshot with the
     places at the start, float64, and the table it is made from, in numbers of `real` bytes."""
-    return 8 * (3 * dim + 2 * dim**2 + 12) + real * (3 * dim + 3 * dim**2 + 2)
+    return 8 * (3 * dim + 2 * dim**2 + 14) + real * (3 * dim + 3 * dim**2 + 4)
 
 
 def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: int) -> Snapshot:
@@ -59,6 +66,8 @@ def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: in
         "deformation_gradient": (dim, dim),
         "cauchy_stress": (3, 3),
         "energy_density": (),
+        "volume_ratio": (),
+        "plastic_strain": (),
         "spin": (dim, dim),
     }
     whole = {name: np.zeros((n, *size)) for name, size in sizes.items()}
@@ -78,13 +87,15 @@ def _derived(solver, values):
     sigma[:, :dim, :dim] = values["tau"]
     if dim == 2:
         sigma[:, 2, 2] = values["tau_zz"]
-    sigma /= np.linalg.det(F)[:, None, None]
+    sigma /= values["J"][:, None, None]
     derived = {
         "position": values["x"],
         "velocity": values["v"],
         "deformation_gradient": F,
         "cauchy_stress": sigma,
         "energy_density": values["psi"],
+        "volume_ratio": values["J"],
+        "plastic_strain": values["plastic_strain"],
     }
     if solver.transfer.affine:
         # A = m C, in the MLS form (where D is one number) plus a symmetric stress: no skew part.

@@ -6,6 +6,7 @@ Limits from numerics.md, chapters 4 and 5, each for the undeformed material and 
     isolated particle  l dx sqrt(rho / M_d)          l: limit of transfer and basis for one particle
     travel             0.5 dx / |v|
     gravity            sqrt(0.5 dx / |g|)
+    viscosity          rho dx^2 / (4 eta)
 """
 
 from math import hypot, inf, sqrt
@@ -57,6 +58,9 @@ def limits(materials, basis, transfer, dx, gravity, speed, half_width) -> list[L
             stiffness = material.dilatation_modulus(len(gravity))
             seconds = isolated * dx * sqrt(material.density / stiffness)
             found.append(Limit("isolated particle", seconds, f"material {name}"))
+        if material.shear_viscosity() > 0:
+            seconds = 0.25 * material.density * dx**2 / material.shear_viscosity()
+            found.append(Limit("viscosity", seconds, f"material {name}"))
     if speed > 0:
         found.append(Limit("travel", 0.5 * dx / speed, f"speed {speed:.3g} m/s"))
     if any(gravity):

@@ -14,7 +14,7 @@ def evaluate_particles(
     particles: Template, law: Template, material: int, grid: Template, basis: Template,
     begin: int, end: int, table: Array,
 ):  # fmt: skip
-    """Row id of the table: x, v, D, H, tau, A, psi, tau_zz."""
+    """Row id of the table: x, v, D, H, tau, A, psi, J, plastic strain, tau_zz."""
     dim = ti.static(grid.dim)
     matrix = ti.static(dim * dim)
     for p in range(begin, end):
@@ -37,24 +37,26 @@ def evaluate_particles(
                 table[id, at + 2 * matrix] = A[d, e]
         last = ti.static(3 * dim + 3 * matrix)
         table[id, last] = law.kind.energy_density(c, H_same, s)
+        table[id, last + 1] = law.kind.volume_ratio(c, H_same, s)
+        table[id, last + 2] = law.kind.plastic_strain(c, H_same, s)
         if ti.static(dim == 2):
-            table[id, last + 1] = law.kind.out_of_plane_stress(c, H_same, s)
+            table[id, last + 3] = law.kind.out_of_plane_stress(c, H_same, s)
 
 
 def evaluate(particles, grid, basis):
     """x [m], v [m/s], D (moment of each axis, dx^2) [n, dim]; H, tau (Kirchhoff stress, Pa), A
-    (affine momentum, kg/s; if a basis has moments that vary, times D) [n, dim, dim]; psi (elastic
-    energy per reference volume, J/m^3) and, in plane strain, tau_zz [n]; all in the precision of
-    the run."""
+    (affine momentum, kg/s; if a basis has moments that vary, times D) [n, dim, dim]; psi (stored
+    energy per reference volume, J/m^3), J (volume ratio), plastic_strain (equivalent) and, in plane
+    strain, tau_zz [n]; all in the precision of the run."""
     n, dim = particles.count, grid.dim
-    table = np.zeros((n, 3 * dim + 3 * dim**2 + 2), particles.dtype)
+    table = np.zeros((n, 3 * dim + 3 * dim**2 + 4), particles.dtype)
     for group in particles.groups:
         evaluate_particles(
             particles, group.law, group.number, grid, basis, group.begin, group.end, table
         )
     vectors = {"x": 0, "v": dim, "D": 2 * dim}
     matrices = {"H": 3 * dim, "tau": 3 * dim + dim**2, "A": 3 * dim + 2 * dim**2}
-    scalars = {"psi": -2, "tau_zz": -1}
+    scalars = {"psi": -4, "J": -3, "plastic_strain": -2, "tau_zz": -1}
     return (
         {name: table[:, at : at + dim] for name, at in vectors.items()}
         | {name: table[:, at : at + dim**2].reshape(n, dim, dim) for name, at in matrices.items()}

@@ -40,14 +40,16 @@ def add_particle(
     p, particles: Template, law: Template, material, grid: Template, basis: Template,
     transfer: Template, ranges: Template, block, table: Template, real: Template,
 ):  # fmt: skip
-    """Columns: m x, m v, angular momentum, kinetic energy, elastic energy."""
+    """Columns: m x, m v, angular momentum, kinetic, stored and dissipated energy."""
     dim = ti.static(grid.dim)
     g = grid.constants[None]
     body = body_of(particles.id[p], ranges)
     m, x = ti.cast(particles.m[p], real), particles.x[p].cast(real)
     mv = vector(particles.rows, p, 0, dim).cast(real)
     v = mv / m
-    psi = law.kind.energy_density(law.constants[material], particles.H[p], load_state(law, p))
+    c, H, s, V0 = law.constants[material], particles.H[p], load_state(law, p), particles.V0[p]
+    stored = law.kind.energy_density(c, H, s)
+    dissipated = law.kind.dissipated_energy(c, H, s)
     # Where the moments were gathered D is one number, or a factor that A carries (kernels/rows.py).
     D = ti.Vector.one(float, dim) / g.inverse_moment
     if ti.static(transfer.affine and not transfer.moments):
@@ -63,7 +65,8 @@ def add_particle(
         add(table, block, body, ti.static(2 * dim + k), x[d] * mv[e] - x[e] * mv[d] + spin)
     last = ti.static(2 * dim + len(TURNS[dim]))
     add(table, block, body, last, 0.5 * mv.dot(v))
-    add(table, block, body, last + 1, ti.cast(particles.V0[p], real) * psi)
+    add(table, block, body, last + 1, ti.cast(V0, real) * stored)
+    add(table, block, body, last + 2, ti.cast(V0, real) * dissipated)
 
 
 @ti.func
@@ -105,13 +108,14 @@ def sums(particles, grid, basis, transfer, ranges):
         angular_momentum  about the origin, sum x x m v and the moments of the affine velocity
                           (Jiang et al. 2015) [kg m^2/s], shape [bodies, 1] in 2D, [bodies, 3] in 3D
         kinetic_energy    sum m |v|^2 / 2 [J], shape [bodies]
-        elastic_energy    sum V0 psi [J], shape [bodies]
+        elastic_energy    sum V0 psi, what the laws store [J], shape [bodies]
+        dissipated_energy what the laws have lost since the start [J], shape [bodies]
 
     Blocks of particles are added up each on its own, then in their order: the result does not
     depend on the number of threads.  Terms and sums are f64 also in an f32 run, where every device
     of the kind has it (`widest_float`)."""
     dim, turns, real = grid.dim, len(TURNS[grid.dim]), widest_float()
-    total = np.zeros((len(ranges) - 1, 2 * dim + turns + 2))
+    total = np.zeros((len(ranges) - 1, 2 * dim + turns + 3))
     for group in particles.groups:
         count = group.end - group.begin
         most = MOST_BLOCKS["gpu" if grid.atomic else "cpu"]
@@ -126,6 +130,7 @@ def sums(particles, grid, basis, transfer, ranges):
         "mass_moment": total[:, :dim],
         "momentum": total[:, dim : 2 * dim],
         "angular_momentum": total[:, 2 * dim : 2 * dim + turns],
-        "kinetic_energy": total[:, -2],
-        "elastic_energy": total[:, -1],
+        "kinetic_energy": total[:, -3],
+        "elastic_energy": total[:, -2],
+        "dissipated_energy": total[:, -1],
     }

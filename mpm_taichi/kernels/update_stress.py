@@ -19,6 +19,12 @@ def load_state(law: Template, p):
 
 
 @ti.func
+def store_state(law: Template, p, s):
+    if ti.static(law.has_state):
+        law.state[p - law.begin] = s
+
+
+@ti.func
 def note_if_lost(p, x, particles: Template, grid: Template):
     inside = True
     for d in ti.static(range(grid.dim)):
@@ -50,8 +56,7 @@ def update_particle(
             law.constants[material], H + dt * (L + L @ H), L, dt, load_state(law, p)
         )
         particles.H[p] = H_new
-        if ti.static(law.has_state):
-            law.state[p - law.begin] = s
+        store_state(law, p, s)
         T = (-dt_next * particles.V0[p]) * tau
     if ti.static(velocity):
         put_vector(particles.rows, p, 0, m * v, m)

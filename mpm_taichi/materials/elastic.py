@@ -1,17 +1,16 @@
-"""What all isotropic elastic materials have: density, Young's modulus, Poisson's ratio."""
+"""What all isotropic elastic materials have: Young's modulus and Poisson's ratio."""
 
 from math import sqrt
 
-import numpy as np
 from pydantic import Field
 
-from ..model import Model, Positive
+from ..model import Positive
+from .law import MaterialLaw
 
 
-class Elastic(Model):
+class Elastic(MaterialLaw):
     """Isotropic elasticity at small strain, the limit of every elastic law here."""
 
-    density: Positive = Field(description="mass per volume at the start [kg/m^3]")
     youngs_modulus: Positive = Field(description="Young's modulus E [Pa]")
     poissons_ratio: float = Field(gt=-1, lt=0.5, description="Poisson's ratio nu [-]")
 
@@ -19,16 +18,6 @@ class Elastic(Model):
         """Lame parameters mu and lam [Pa]."""
         E, nu = self.youngs_modulus, self.poissons_ratio
         return {"mu": E / (2 * (1 + nu)), "lam": E * nu / ((1 + nu) * (1 - 2 * nu))}
-
-    def state(self, dim: int) -> dict[str, list]:
-        return {}
-
-    def start(self, H: np.ndarray) -> dict[str, np.ndarray]:
-        """The history variables of particles that start with H [n, dim, dim]."""
-        return {
-            name: np.broadcast_to(value, (len(H), *np.shape(value))).astype(float)
-            for name, value in self.state(H.shape[1]).items()
-        }
 
     def wave_speed(self) -> float:
         """sqrt((lam + 2 mu) / rho) [m/s]."""

@@ -39,3 +39,24 @@ def log_volume_ratio(strain):
     y = z * z
     series = 1.0 + y * (1.0 / 3 + y * (1.0 / 5 + y * (1.0 / 7 + y * (1.0 / 9 + y * (1.0 / 11)))))
     return factor * z * series
+
+
+@ti.func
+def exp_less_one(y):
+    """exp(y) - 1, to a few rounding errors of the result also where y is small; for |y| < 80.
+
+    Below |y| = 0.1 nine terms of the series; larger ones are brought there by halving,
+    exp(2 y) - 1 = e (2 + e) with e = exp(y) - 1.  No library exponential: Vulkan has none in
+    f64."""
+    halvings = 0
+    while ti.abs(y) > 0.1 and halvings < 10:
+        y *= 0.5
+        halvings += 1
+    e = 1.0 / 9
+    for k in ti.static(range(8, 0, -1)):
+        e = (1.0 + y * e) * (1.0 / k)
+    e *= y
+    while halvings > 0:
+        e *= 2.0 + e
+        halvings -= 1
+    return e

@@ -44,6 +44,7 @@ class History:
             **{f"angular_momentum{axis}": L for axis, L in zip(turning, angular, strict=True)},
             "kinetic_energy": sums["kinetic_energy"].sum(),
             "elastic_energy": sums["elastic_energy"].sum(),
+            "dissipated_energy": sums["dissipated_energy"].sum(),
             # - sum m g . x, zero at the origin
             "gravitational_energy": -(sums["mass_moment"].sum(axis=0) @ self.gravity),
         }

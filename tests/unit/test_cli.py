@@ -104,7 +104,7 @@ def test_the_report_says_what_was_kept(finished):
     kept, table = json.loads(result.stdout)["conservation"], history(folder)
     assert kept.keys() == {
         "mass", "momentum_x", "momentum_y", "angular_momentum",
-        "kinetic_energy", "elastic_energy", "gravitational_energy",
+        "kinetic_energy", "elastic_energy", "dissipated_energy", "gravitational_energy",
     }  # fmt: skip
     for name, entry in kept.items():
         assert entry["start"] == table[name][0]

@@ -4,10 +4,11 @@ invertible elasticity."""
 import numpy as np
 
 from .invariants import volume_strain
+from .law import MaterialLaw
 from .polar import rotation
 
 
-class FixedCorotated:
+class FixedCorotated(MaterialLaw):
     """psi = mu sum_i (s_i - 1)^2 + lam/2 (J - 1)^2;  tau = 2 mu (F - R) F^T + lam (J - 1) J I."""
 
     @staticmethod

@@ -18,3 +18,8 @@ def volume_strain(H):
 def log_volume_ratio(strain):
     """ln(1 + strain); NaN from -1 down."""
     return np.log1p(strain) if strain > -1 else np.nan
+
+
+def exp_less_one(y):
+    """exp(y) - 1."""
+    return np.expm1(y)

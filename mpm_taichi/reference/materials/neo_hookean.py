@@ -3,9 +3,10 @@
 import numpy as np
 
 from .invariants import left_strain, log_volume_ratio, volume_strain
+from .law import MaterialLaw
 
 
-class NeoHookean:
+class NeoHookean(MaterialLaw):
     """psi = mu/2 (tr b - 3) - mu ln J + lam/2 (ln J)^2;  tau = mu (b - I) + lam ln J I."""
 
     @staticmethod

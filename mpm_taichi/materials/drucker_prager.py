@@ -1,0 +1,104 @@
+"""Sand: Drucker-Prager plasticity without dilation, Klar, Gast, Pradhana, Fu, Schroeder, Jiang and
+Teran (2016), Drucker-Prager elastoplasticity for sand animation; volume correction of Tampubolon et
+al. (2017), Multi-species simulation of porous sand and water mixtures, section 4.3.4."""
+
+from math import cos, inf, radians, sin, sqrt, tan
+from typing import Any, Literal
+
+import taichi as ti
+from pydantic import Field
+
+from .flowing import Flowing, across, flowed
+from .hencky import Hencky
+from .invariants import exp_less_one
+from .principal import assembled, logarithmic_strains
+
+
+class DruckerPrager(Flowing):
+    """f = |dev tau| - A p - B <= 0 with p = - tr tau / 3.  Shear flows at constant volume, no
+    dilation, until f = 0.  Where tr e >= B / (A K) grains lose touch: the stress is zero, and the
+    volume that opens, g = ln J - tr e, has to close before there is pressure again.  Without the
+    volume correction g is forgotten: sand swells each time that it opens.
+
+    The cone meets the Mohr-Coulomb pyramid with cohesion C in triaxial compression or where sand
+    that dilates by the cone's own normal would flow in plane strain:
+
+        compression   A = 2 sqrt(6) sin phi / (3 - sin phi),   B = 2 sqrt(6) C cos phi / (3 - sin phi)
+        plane_strain  A = 3 sqrt(2) tan phi / n,   B = 3 sqrt(2) C / n,   n = sqrt(9 + 12 tan^2 phi)
+    """  # noqa: E501
+
+    type: Literal["drucker_prager"]
+    friction_angle: float = Field(ge=0, lt=90, description="of internal friction, phi [degrees]")
+    cohesion: float = Field(default=0.0, ge=0, description="strength without pressure, C [Pa]")
+    cone: Literal["compression", "plane_strain"] = Field(
+        default="compression",
+        description="meets Mohr-Coulomb in triaxial compression or in plane strain",
+    )
+    volume_correction: bool = Field(
+        default=True, description="opened volume has to close before there is pressure again"
+    )
+
+    def slope_and_strength(self) -> tuple[float, float]:
+        """A [-] and B [Pa]."""
+        phi, C = radians(self.friction_angle), self.cohesion
+        if self.cone == "plane_strain":
+            part = 3 * sqrt(2) / sqrt(9 + 12 * tan(phi) ** 2)
+            return part * tan(phi), part * C
+        part = 2 * sqrt(6) / (3 - sin(phi))
+        return part * sin(phi), part * C * cos(phi)
+
+    def constants(self, cell_size: float) -> dict[str, float]:
+        elastic = super().constants(cell_size)
+        slope, strength = self.slope_and_strength()
+        bulk = elastic["lam"] + 2 * elastic["mu"] / 3
+        tear = strength / (slope * bulk) if slope > 0 else (inf if strength > 0 else 0.0)
+        return elastic | {
+            "slope": slope,
+            "strength": strength,
+            "tear": min(tear, 1e30),  # a number in f32 too
+            "correction": float(self.volume_correction),
+        }
+
+    def state(self, dim: int) -> dict[str, Any]:
+        """opened: g [-]; plastic_strain: sum of sqrt(2/3) |change of dev e| [-]; dissipated: energy
+        per reference volume [J/m^3]."""
+        own = {"opened": 0.0, "plastic_strain": 0.0, "dissipated": 0.0}
+        return own | super().state(dim)
+
+    @staticmethod
+    @ti.func
+    def update(c, H, L, dt, s):
+        trial, V = logarithmic_strains(H, across(H, s))
+        closing = c.correction * s.opened
+        volume = trial.sum() + closing
+        deviator = trial - trial.sum() / 3.0
+        size = deviator.norm()
+        largest = (c.strength - c.slope * (c.lam + 2.0 / 3.0 * c.mu) * volume) / (2.0 * c.mu)
+        e, flows = trial, False
+        if volume >= (c.tear if s.opened == 0.0 else 0.0):
+            s.opened += trial.sum()
+            e, flows = 0.0 * trial, True
+        elif size > largest or closing > 0.0:
+            s.opened -= closing
+            part = ti.min(1.0, largest / size)
+            s.plastic_strain += ti.static(sqrt(2 / 3)) * (1.0 - part) * size
+            e, flows = part * deviator + volume / 3.0, True
+        if flows:
+            s.dissipated += Hencky.energy_of(c, trial) - Hencky.energy_of(c, e)
+            H, s = flowed(H, V, e - trial, s)
+        return H, s, assembled(Hencky.principal_stress(c, e), V)
+
+    @staticmethod
+    @ti.func
+    def volume_ratio(c, H, s):
+        return Flowing.volume_ratio(c, H, s) * (1.0 + exp_less_one(s.opened))
+
+    @staticmethod
+    @ti.func
+    def dissipated_energy(c, H, s):
+        return s.dissipated
+
+    @staticmethod
+    @ti.func
+    def plastic_strain(c, H, s):
+        return s.plastic_strain

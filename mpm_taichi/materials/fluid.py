@@ -1,0 +1,115 @@
+"""Weakly compressible fluid: Tait's equation, Batchelor (1967), section 1.8; Monaghan (1994), J.
+Comput. Phys. 110; with Newton's viscosity."""
+
+from math import sqrt
+from typing import Any, Literal
+
+import taichi as ti
+from pydantic import Field
+
+from ..model import Positive
+from .invariants import exp_less_one, log_volume_ratio, volume_strain
+from .law import MaterialLaw
+
+
+class Fluid(MaterialLaw):
+    """p = K / gamma (J^-gamma - 1), at least - p_t;  tau = J (- p I + 2 eta dev sym L).
+
+    J follows det(I + dt L); F is kept as J^(1/dim) I, so that shear leaves no trace.  The viscous
+    stress is that of the rate L, whatever dt is.  K is the bulk modulus and sqrt(K / rho) the speed
+    of sound; a tenth of the true one and ten times the largest speed are enough."""
+
+    counters = {"cut_off": "tension of a fluid cut off, particles"}
+
+    type: Literal["fluid"]
+    bulk_modulus: Positive = Field(description="K at J = 1 [Pa]")
+    exponent: float = Field(default=7.0, gt=1, description="gamma [-]")
+    viscosity: float = Field(default=0.0, ge=0, description="of shear, eta [Pa s]")
+    tension: float = Field(default=0.0, ge=0, description="largest tension p_t [Pa]")
+
+    def constants(self, cell_size: float) -> dict[str, float]:
+        K, gamma = self.bulk_modulus, self.exponent
+        # where p = - p_t; Tait's own tension stays below K / gamma
+        tears = 1 - self.tension * gamma / K > 0
+        torn = (1 - self.tension * gamma / K) ** (-1 / gamma) - 1 if tears else 1e30
+        return {
+            "bulk_modulus": K,
+            "exponent": gamma,
+            "viscosity": self.viscosity,
+            "tension": self.tension,
+            "torn": torn,
+        }
+
+    def state(self, dim: int) -> dict[str, Any]:
+        """dissipated: energy per reference volume [J/m^3]; cut_off: number of steps."""
+        return {"dissipated": 0.0, "cut_off": 0.0}
+
+    def wave_speed(self) -> float:
+        """sqrt(K / rho) [m/s]."""
+        return sqrt(self.bulk_modulus / self.density)
+
+    def dilatation_modulus(self, dim: int) -> float:
+        return dim * self.bulk_modulus
+
+    def shear_viscosity(self) -> float:
+        return self.viscosity
+
+    @staticmethod
+    @ti.func
+    def pressure(c, strain):
+        """p [Pa] at J - 1 = strain, and whether it was cut off."""
+        p = c.bulk_modulus / c.exponent * exp_less_one(-c.exponent * log_volume_ratio(strain))
+        return ti.max(p, -c.tension), p < -c.tension
+
+    @staticmethod
+    @ti.func
+    def update(c, H, L, dt, s):
+        strain = volume_strain(H)
+        p, is_cut = Fluid.pressure(c, strain)
+        s.cut_off += ti.select(is_cut, 1.0, 0.0)
+        slower = L.trace() / 3.0
+        D = 0.5 * (L + L.transpose())
+        for d in ti.static(range(H.n)):
+            D[d, d] -= slower
+        squares = D.norm_sqr()
+        if ti.static(H.n == 2):
+            squares += slower * slower
+        tau = (2.0 * c.viscosity * (1.0 + strain)) * D
+        s.dissipated += dt * 2.0 * c.viscosity * (1.0 + strain) * squares
+        for d in ti.static(range(H.n)):
+            tau[d, d] -= (1.0 + strain) * p
+        return isotropic(H, strain), s, tau
+
+    @staticmethod
+    @ti.func
+    def energy_density(c, H, s):
+        """int p d(-J) from J = 1."""
+        strain = ti.min(volume_strain(H), c.torn)
+        series = 1.0
+        for k in ti.static(range(9, 2, -1)):
+            series = 1.0 - strain * (c.exponent + k - 2.0) / k * series
+        stored = 0.5 * strain * strain * series
+        if ti.abs(strain) > 0.02:  # else its two terms would leave few digits
+            power = exp_less_one((1.0 - c.exponent) * log_volume_ratio(strain))
+            stored = (power / (c.exponent - 1.0) + strain) / c.exponent
+        return c.bulk_modulus * stored + c.tension * (volume_strain(H) - strain)
+
+    @staticmethod
+    @ti.func
+    def dissipated_energy(c, H, s):
+        return s.dissipated
+
+    @staticmethod
+    @ti.func
+    def out_of_plane_stress(c, H, s):
+        """Of the pressure."""
+        strain = volume_strain(H)
+        p, _is_cut = Fluid.pressure(c, strain)
+        return -(1.0 + strain) * p
+
+
+@ti.func
+def isotropic(H, strain):
+    """H of F = (1 + strain)^(1/dim) I."""
+    stretch = exp_less_one(log_volume_ratio(strain) / H.n)
+    return stretch * ti.Matrix.identity(float, H.n)

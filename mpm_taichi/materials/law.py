@@ -1,0 +1,50 @@
+"""What all laws have: a density, a history, and answers that most laws share."""
+
+from typing import Any, ClassVar
+
+import numpy as np
+import taichi as ti
+from pydantic import Field
+
+from ..model import Model, Positive
+from .invariants import volume_strain
+
+
+class MaterialLaw(Model):
+    """A law without history, whose deformation is all stored: nothing flows, nothing is lost.
+
+    `counters` names the histories that count how often something was cut off, each with what that
+    is."""
+
+    counters: ClassVar[dict[str, str]] = {}
+
+    density: Positive = Field(description="mass per volume at the start [kg/m^3]")
+
+    def state(self, dim: int) -> dict[str, Any]:
+        return {}
+
+    def start(self, H: np.ndarray) -> dict[str, np.ndarray]:
+        """The history variables of particles that start with H [n, dim, dim]."""
+        return {
+            name: np.broadcast_to(value, (len(H), *np.shape(value))).astype(float)
+            for name, value in self.state(H.shape[1]).items()
+        }
+
+    def shear_viscosity(self) -> float:
+        """eta [Pa s], which limits the time step."""
+        return 0.0
+
+    @staticmethod
+    @ti.func
+    def volume_ratio(c, H, s):
+        return 1.0 + volume_strain(H)
+
+    @staticmethod
+    @ti.func
+    def dissipated_energy(c, H, s):
+        return 0.0
+
+    @staticmethod
+    @ti.func
+    def plastic_strain(c, H, s):
+        return 0.0

@@ -1,0 +1,122 @@
+"""Snow: Stomakhin, Schroeder, Chai, Teran and Selle (2013), A material point method for snow
+simulation, ACM Trans. Graph. 32, sections 4 to 6."""
+
+from math import log, sqrt
+from typing import Any, Literal
+
+import taichi as ti
+from pydantic import Field
+
+from ..model import Positive
+from .elastic import Elastic
+from .invariants import exp_less_one, left_strain, volume_strain
+from .principal import assembled, compound, eigen
+
+
+class Snow(Elastic):
+    """Fixed-corotated, with mu and lam times exp(xi (1 - J_P)): packed snow is harder.  Stretches
+    of the elastic part stay within [1 - theta_c, 1 + theta_s]; what lies beyond goes into J_P.
+
+    In plane strain the stretch across the plane is 1, within the limits: no history.  Hardening is
+    capped, as the time step has to be stable for the hardest snow; a cap that acts is counted."""
+
+    counters = {"capped": "hardening of snow capped"}
+
+    type: Literal["snow"]
+    critical_compression: float = Field(gt=0, lt=1, description="theta_c [-]")
+    critical_stretch: Positive = Field(description="theta_s [-]")
+    hardening: float = Field(ge=0, description="xi [-]")
+    largest_hardening: float = Field(
+        default=10.0, ge=1, description="largest factor of the Lame parameters [-]"
+    )
+
+    def constants(self, cell_size: float) -> dict[str, float]:
+        return super().constants(cell_size) | {
+            "least": -self.critical_compression,
+            "most": self.critical_stretch,
+            "hardening": self.hardening,
+            "cap": self.largest_hardening,
+            "capped_at": log(self.largest_hardening),
+        }
+
+    def state(self, dim: int) -> dict[str, Any]:
+        """plastic_volume: J_P - 1 [-]; dissipated: energy per reference volume [J/m^3]; capped:
+        number of steps."""
+        return {"plastic_volume": 0.0, "dissipated": 0.0, "capped": 0.0}
+
+    def wave_speed(self) -> float:
+        """Of the hardest snow [m/s]."""
+        return sqrt(self.largest_hardening) * super().wave_speed()
+
+    def dilatation_modulus(self, dim: int) -> float:
+        return self.largest_hardening * super().dilatation_modulus(dim)
+
+    @staticmethod
+    @ti.func
+    def hardness(c, s):
+        """Factor of the Lame parameters [-]."""
+        return 1.0 + exp_less_one(ti.min(-c.hardening * s.plastic_volume, c.capped_at))
+
+    @staticmethod
+    @ti.func
+    def energy_of(c, x, factor):
+        """psi of principal stretches 1 + x [dim]."""
+        strain = volume_of(x)
+        return factor * (c.mu * x.norm_sqr() + 0.5 * c.lam * strain * strain)
+
+    @staticmethod
+    @ti.func
+    def update(c, H, L, dt, s):
+        squares, V = eigen(left_strain(H))
+        x, y, growth = squares, squares, squares
+        flows = False
+        for d in ti.static(range(H.n)):
+            x[d] = squares[d] / (1.0 + ti.sqrt(1.0 + squares[d]))
+            y[d] = ti.min(ti.max(x[d], c.least), c.most)
+            growth[d] = (y[d] - x[d]) / (1.0 + x[d])
+            flows = flows or growth[d] != 0.0
+        if flows:
+            s.dissipated += Snow.energy_of(c, x, Snow.hardness(c, s))
+            G = assembled(growth, V)
+            H += G + G @ H
+            kept = volume_of(y)
+            s.plastic_volume = compound(s.plastic_volume, (volume_of(x) - kept) / (1.0 + kept))
+            s.dissipated -= Snow.energy_of(c, y, Snow.hardness(c, s))
+        s.capped += ti.select(-c.hardening * s.plastic_volume > c.capped_at, 1.0, 0.0)
+        strain = volume_of(y)
+        tau = 2.0 * c.mu * (y + y * y) + c.lam * strain * (1.0 + strain)
+        return H, s, assembled(Snow.hardness(c, s) * tau, V)
+
+    @staticmethod
+    @ti.func
+    def energy_density(c, H, s):
+        squares, _V = eigen(left_strain(H))
+        x = squares
+        for d in ti.static(range(H.n)):
+            x[d] = squares[d] / (1.0 + ti.sqrt(1.0 + squares[d]))
+        return Snow.energy_of(c, x, Snow.hardness(c, s))
+
+    @staticmethod
+    @ti.func
+    def dissipated_energy(c, H, s):
+        return s.dissipated
+
+    @staticmethod
+    @ti.func
+    def volume_ratio(c, H, s):
+        return (1.0 + volume_strain(H)) * (1.0 + s.plastic_volume)
+
+    @staticmethod
+    @ti.func
+    def out_of_plane_stress(c, H, s):
+        strain = volume_strain(H)
+        return Snow.hardness(c, s) * c.lam * strain * (1.0 + strain)
+
+
+@ti.func
+def volume_of(x):
+    """J - 1 of principal stretches 1 + x [dim]."""
+    strain = x[0]
+    for d in ti.static(range(1, x.n)):
+        strain = compound(strain, x[d])
+    return strain
