@@ -2,7 +2,7 @@
 
     python benchmarks/throughput.py [--quick] [--dim 2 3] [--precision f32 f64] [--particles N]
                                     [--threads 1 2 ...] [--forms "quadratic mls" ...]
-                                    [--curves [--large]] [--rounds N] [--json FILE]
+                                    [--laws] [--curves [--large]] [--rounds N] [--json FILE]
 
 Neo-Hookean, a block in shear, 2^dim particles per cell (3D: a million particles on 128^3 cells, 2D:
 250,000 on 512^2), dt = 0.1 dx / c.  Each form has a process of its own; these run in turns.  Times
@@ -21,12 +21,14 @@ from pathlib import Path
 from statistics import median
 
 import curves
+import laws
 from interleaved import in_turns
 from limits import copy_bandwidth, instruction_limit, memory_limit
 from tables import markdown
 from workload import FORMS, TEXTBOOK, pair
 
 DEFAULT_PARTICLES = {2: 250_000, 3: 1_000_000}
+LAW_PARTICLES = 200_000
 STAGES = ("clear", "p2g", "grid_update", "g2p", "residual", "update_stress", "sort")
 
 
@@ -171,6 +173,9 @@ def parse(arguments=None):
         help="also whole steps of the first form, for 1e3 to 1e6 particles and for 1, 8 and 64 "
         "times as many cells in 3D",
     )  # fmt: skip
+    parser.add_argument(
+        "--laws", action="store_true", help="also each law beside neo-Hookean, in the first form"
+    )
     parser.add_argument("--large", action="store_true", help="with --curves: 1e7 particles too")
     parser.add_argument("--rounds", type=int, help="turns of each form")
     parser.add_argument("--json", type=Path, help="write all numbers to this file")
@@ -232,6 +237,16 @@ def main():
             )
         ]
         print("\nWhole steps, ns per particle-step\n", curves.table(content["curves"]), sep="\n")
+    if options.laws:
+        content["laws"] = [
+            row
+            for dim, precision in cases
+            for row in laws.measured(
+                dim, precision, options.particles or LAW_PARTICLES, forms[0], rounds
+            )
+        ]
+        print("\nLaws, CPU ns per particle-step without the sort\n")
+        print(laws.table(content["laws"]), flush=True)
     print(f"\nDone{load()}")
     if options.json:
         options.json.write_text(json.dumps(content, indent=2) + "\n")

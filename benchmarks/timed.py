@@ -31,8 +31,8 @@ SECONDS = 1.0  # of steps in a turn
 class Stages:
     """Stages of a step, one by one."""
 
-    def __init__(self, dim, precision, particles, form, threads):
-        self.threads = threads
+    def __init__(self, dim, precision, particles, form, threads, law=None):
+        self.threads, self.law = threads, law
         runtime.start("cpu", precision, threads, offline_cache=False)
         make = self._textbook if form.startswith("textbook") else self._ours
         make(dim, particles, form)
@@ -49,7 +49,7 @@ class Stages:
         self.node_fields = [step.grid_v, step.grid_m]
 
     def _ours(self, dim, count, form):
-        solver, dt = our_solver(dim, count, form, self.threads)
+        solver, dt = our_solver(dim, count, form, self.threads, law=self.law)
         P, G, basis, t = solver.particles, solver.grid, solver.basis, solver.transfer
         solver.start(dt)
         sort(P, G, basis)

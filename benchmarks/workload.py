@@ -4,6 +4,7 @@ cell, dt = 0.1 dx / c, in a form `basis transfer` of ours or in the textbook for
 from types import SimpleNamespace
 
 import numpy as np
+from laws import LAWS
 
 from mpm_taichi import bases, transfers
 from mpm_taichi.boundaries import Separate, Wall
@@ -63,14 +64,19 @@ def step_length(cells):
     return 0.1 / cells / MATERIAL.wave_speed()
 
 
-def our_solver(dim, count, form, threads=1, room=1, **options):
+def our_solver(dim, count, form, threads=1, room=1, law=None, **options):
     """A solver that has not started, and its step [s]; Taichi runs.  XPIC is that of order 2, a
-    blend has 99 % FLIP."""
+    blend has 99 % FLIP.  With a `law` of benchmarks/laws.py the block is strained."""
     basis, transfer = pair(form)
     x, v, V0, cells = block(dim, count, form, room)
     walls = tuple(Wall(axis, upper, Separate) for axis in range(dim) for upper in (False, True))
+    material, H = MATERIAL, None
+    if law is not None:
+        material = next(known for known in LAWS if known.type == law)
+        noise = np.random.default_rng(1).normal(size=(len(x), dim, dim))
+        H = 0.005 * noise - 0.01 * np.eye(dim)
     solver = Solver(
-        [BodyPoints(MATERIAL, x, v, V0)], (cells,) * dim, 1 / cells, basis, transfer, walls,
+        [BodyPoints(material, x, v, V0, H=H)], (cells,) * dim, 1 / cells, basis, transfer, walls,
         [0.0] * dim, filter_order=2, threads=threads,
         flip_part=FlipPart(0.99 if transfer is transfers.FLIPBlend else 1.0), **options,
     )  # fmt: skip

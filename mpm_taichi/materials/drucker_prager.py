@@ -8,10 +8,9 @@ from typing import Any, Literal
 import taichi as ti
 from pydantic import Field
 
-from .flowing import Flowing, across, flowed
+from .flowing import Flowing
 from .hencky import Hencky
 from .invariants import exp_less_one
-from .principal import assembled, logarithmic_strains
 
 
 class DruckerPrager(Flowing):
@@ -68,25 +67,27 @@ class DruckerPrager(Flowing):
     @staticmethod
     @ti.func
     def update(c, H, L, dt, s):
-        trial, V = logarithmic_strains(H, across(H, s))
+        e, e_zz, trial = Flowing.strain(H, s)
+        D, D_zz, size = Flowing.deviator(e, e_zz, trial)
         closing = c.correction * s.opened
-        volume = trial.sum() + closing
-        deviator = trial - trial.sum() / 3.0
-        size = deviator.norm()
+        volume, part, flows = trial + closing, 1.0, False  # of the new strain, as is `part` D
         largest = (c.strength - c.slope * (c.lam + 2.0 / 3.0 * c.mu) * volume) / (2.0 * c.mu)
-        e, flows = trial, False
         if volume >= (c.tear if s.opened == 0.0 else 0.0):
-            s.opened += trial.sum()
-            e, flows = 0.0 * trial, True
+            s.opened += trial
+            volume, part, flows = 0.0, 0.0, True
         elif size > largest or closing > 0.0:
             s.opened -= closing
-            part = ti.min(1.0, largest / size)
+            part, flows = ti.min(1.0, largest / size), True
             s.plastic_strain += ti.static(sqrt(2 / 3)) * (1.0 - part) * size
-            e, flows = part * deviator + volume / 3.0, True
         if flows:
-            s.dissipated += Hencky.energy_of(c, trial) - Hencky.energy_of(c, e)
-            H, s = flowed(H, V, e - trial, s)
-        return H, s, assembled(Hencky.principal_stress(c, e), V)
+            s.dissipated += Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
+            swelling = (volume - trial) / 3.0
+            change = (part - 1.0) * D
+            for d in ti.static(range(H.n)):
+                change[d, d] += swelling
+            H, s = Flowing.flowed(H, s, change, (part - 1.0) * D_zz + swelling)
+            e += change
+        return H, s, Hencky.stress(c, e, volume)
 
     @staticmethod
     @ti.func

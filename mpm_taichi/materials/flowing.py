@@ -7,46 +7,71 @@ import taichi as ti
 
 from .elastic import Elastic
 from .hencky import Hencky
-from .invariants import exp_less_one, volume_strain
-from .principal import compound, logarithmic_strains, strained
-
-
-@ti.func
-def across(H, s):
-    """Elastic stretch across the plane, less one; 0 in 3D, where there is none."""
-    stretch = 0.0
-    if ti.static(H.n == 2):
-        stretch = s.out_of_plane
-    return stretch
-
-
-@ti.func
-def flowed(H, V, change, s):
-    """H and history after principal strains [3] along the axes V have changed."""
-    if ti.static(H.n == 2):
-        s.out_of_plane = compound(s.out_of_plane, exp_less_one(change[2]))
-    return strained(H, V, change), s
+from .invariants import exp_less_one, log_volume_ratio, volume_strain
+from .symmetric import exponential
 
 
 class Flowing(Elastic):
+    """Strains are e in the plane or in space, and e_zz across the plane, in space 0."""
+
     def state(self, dim: int) -> dict[str, Any]:
-        """out_of_plane: the elastic stretch across the plane, less one [-]."""
-        return {"out_of_plane": 0.0} if dim == 2 else {}
+        """strain_across: e_zz [-]."""
+        return {"strain_across": 0.0} if dim == 2 else {}
+
+    @staticmethod
+    @ti.func
+    def strain(H, s):
+        """e, e_zz, and their trace."""
+        e, e_zz = Hencky.strain(H), 0.0
+        if ti.static(H.n == 2):
+            e_zz = s.strain_across
+        return e, e_zz, e.trace() + e_zz
+
+    @staticmethod
+    @ti.func
+    def deviator(e, e_zz, volume):
+        """Of the strain: in the plane or in space, across the plane, and its norm."""
+        for d in ti.static(range(e.n)):
+            e[d, d] -= volume / 3.0
+        squares = e.norm_sqr()
+        if ti.static(e.n == 2):
+            e_zz -= volume / 3.0
+            squares += e_zz * e_zz
+        return e, e_zz, ti.sqrt(squares)
+
+    @staticmethod
+    @ti.func
+    def energy(c, size, volume):
+        """psi of a strain whose deviator has the norm `size`."""
+        return c.mu * size * size + (0.5 * c.lam + c.mu / 3.0) * volume * volume
+
+    @staticmethod
+    @ti.func
+    def flowed(H, s, change, change_zz):
+        """H and history after the elastic strain has changed along its own axes."""
+        if ti.static(H.n == 2):
+            s.strain_across += change_zz
+        G = exponential(change)
+        return H + G + G @ H, s
 
     @staticmethod
     @ti.func
     def energy_density(c, H, s):
-        e, _V = logarithmic_strains(H, across(H, s))
-        return Hencky.energy_of(c, e)
+        e, e_zz, volume = Flowing.strain(H, s)
+        _e, _e_zz, size = Flowing.deviator(e, e_zz, volume)
+        return Flowing.energy(c, size, volume)
 
     @staticmethod
     @ti.func
     def volume_ratio(c, H, s):
         """Of the elastic part: that of all where the flow keeps the volume."""
-        return 1.0 + compound(volume_strain(H), across(H, s))
+        strain = volume_strain(H)
+        if ti.static(H.n == 2):
+            strain += (1.0 + strain) * exp_less_one(s.strain_across)
+        return 1.0 + strain
 
     @staticmethod
     @ti.func
     def out_of_plane_stress(c, H, s):
-        e, _V = logarithmic_strains(H, across(H, s))
-        return Hencky.principal_stress(c, e)[2]
+        log_J = log_volume_ratio(volume_strain(H))
+        return 2.0 * c.mu * s.strain_across + c.lam * (log_J + s.strain_across)

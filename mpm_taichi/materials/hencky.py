@@ -6,41 +6,45 @@ from typing import Literal
 import taichi as ti
 
 from .elastic import Elastic
-from .principal import assembled, logarithmic_strains
+from .invariants import left_strain, log_volume_ratio, volume_strain
+from .symmetric import logarithm
 
 
 class Hencky(Elastic):
-    """psi = mu sum_i e_i^2 + lam/2 (sum_i e_i)^2 with e_i = ln s_i;  tau_i = 2 mu e_i + lam sum e.
+    """psi = mu e : e + lam/2 (tr e)^2;  tau = 2 mu e + lam tr(e) I;  e = ln(F F^T) / 2.
 
-    As stiff in compression as in tension, and linear in ln J; grows softer where stretched."""
+    Linear in the logarithms of the stretches, as stiff in compression as in tension; softens where
+    it is stretched far."""
 
     type: Literal["hencky"]
 
     @staticmethod
     @ti.func
-    def principal_stress(c, e):
-        """tau_i [3] of the principal strains e [3]."""
-        return 2.0 * c.mu * e + c.lam * e.sum()
+    def strain(H):
+        return 0.5 * logarithm(left_strain(H))
 
     @staticmethod
     @ti.func
-    def energy_of(c, e):
-        return c.mu * e.norm_sqr() + 0.5 * c.lam * e.sum() ** 2
+    def stress(c, e, volume):
+        """tau of the strain e, whose trace, that across the plane included, is `volume`."""
+        tau = 2.0 * c.mu * e
+        for d in ti.static(range(e.n)):
+            tau[d, d] += c.lam * volume
+        return tau
 
     @staticmethod
     @ti.func
     def update(c, H, L, dt, s):
-        e, V = logarithmic_strains(H, 0.0)
-        return H, s, assembled(Hencky.principal_stress(c, e), V)
+        e = Hencky.strain(H)
+        return H, s, Hencky.stress(c, e, e.trace())
 
     @staticmethod
     @ti.func
     def energy_density(c, H, s):
-        e, _V = logarithmic_strains(H, 0.0)
-        return Hencky.energy_of(c, e)
+        e = Hencky.strain(H)
+        return c.mu * e.norm_sqr() + 0.5 * c.lam * e.trace() ** 2
 
     @staticmethod
     @ti.func
     def out_of_plane_stress(c, H, s):
-        e, _V = logarithmic_strains(H, 0.0)
-        return c.lam * e.sum()
+        return c.lam * log_volume_ratio(volume_strain(H))

@@ -10,7 +10,7 @@ from pydantic import Field
 from ..model import Positive
 from .elastic import Elastic
 from .invariants import exp_less_one, left_strain, volume_strain
-from .principal import assembled, compound, eigen
+from .symmetric import SMALL, assembled, eigen, is_above, of_square_root, powers
 
 
 class Snow(Elastic):
@@ -67,25 +67,29 @@ class Snow(Elastic):
     @staticmethod
     @ti.func
     def update(c, H, L, dt, s):
-        squares, V = eigen(left_strain(H))
-        x, y, growth = squares, squares, squares
-        flows = False
-        for d in ti.static(range(H.n)):
-            x[d] = squares[d] / (1.0 + ti.sqrt(1.0 + squares[d]))
-            y[d] = ti.min(ti.max(x[d], c.least), c.most)
-            growth[d] = (y[d] - x[d]) / (1.0 + x[d])
-            flows = flows or growth[d] != 0.0
-        if flows:
+        A, is_elastic, stretch = left_strain(H), False, H
+        if A.norm_sqr() < SMALL**2:
+            stretch = powers(A, ti.static(of_square_root()))  # of F = V R, V - I
+            is_elastic = is_above(stretch, c.least) and is_above(-stretch, -c.most)
+        D = A - stretch  # V^2 - V
+        if not is_elastic:
+            squares, axes = eigen(A)
+            x, y, growth = squares, squares, squares
+            for d in ti.static(range(H.n)):
+                x[d] = squares[d] / (1.0 + ti.sqrt(1.0 + squares[d]))
+                y[d] = ti.min(ti.max(x[d], c.least), c.most)
+                growth[d] = (y[d] - x[d]) / (1.0 + x[d])
             s.dissipated += Snow.energy_of(c, x, Snow.hardness(c, s))
-            G = assembled(growth, V)
+            G, kept = assembled(growth, axes), volume_of(y)
             H += G + G @ H
-            kept = volume_of(y)
             s.plastic_volume = compound(s.plastic_volume, (volume_of(x) - kept) / (1.0 + kept))
             s.dissipated -= Snow.energy_of(c, y, Snow.hardness(c, s))
+            D = assembled(y + y * y, axes)
         s.capped += ti.select(-c.hardening * s.plastic_volume > c.capped_at, 1.0, 0.0)
-        strain = volume_of(y)
-        tau = 2.0 * c.mu * (y + y * y) + c.lam * strain * (1.0 + strain)
-        return H, s, assembled(Snow.hardness(c, s) * tau, V)
+        tau, strain = 2.0 * c.mu * D, volume_strain(H)
+        for d in ti.static(range(H.n)):
+            tau[d, d] += c.lam * strain * (1.0 + strain)
+        return H, s, Snow.hardness(c, s) * tau
 
     @staticmethod
     @ti.func
@@ -111,6 +115,12 @@ class Snow(Elastic):
     def out_of_plane_stress(c, H, s):
         strain = volume_strain(H)
         return Snow.hardness(c, s) * c.lam * strain * (1.0 + strain)
+
+
+@ti.func
+def compound(a, b):
+    """(1 + a) (1 + b) - 1."""
+    return a + b + a * b
 
 
 @ti.func

@@ -9,9 +9,8 @@ import taichi as ti
 from pydantic import Field
 
 from ..model import Positive
-from .flowing import Flowing, across, flowed
+from .flowing import Flowing
 from .hencky import Hencky
-from .principal import assembled, logarithmic_strains
 
 
 class VonMises(Flowing):
@@ -41,18 +40,17 @@ class VonMises(Flowing):
     @staticmethod
     @ti.func
     def update(c, H, L, dt, s):
-        e, V = logarithmic_strains(H, across(H, s))
-        deviator = e - e.sum() / 3.0
-        size = deviator.norm()
+        e, e_zz, volume = Flowing.strain(H, s)
+        D, D_zz, size = Flowing.deviator(e, e_zz, volume)
         excess = ti.static(sqrt(6)) * c.mu * size
         excess -= c.yield_stress + c.hardening * s.plastic_strain
         if excess > 0.0:
             flow = excess / (3.0 * c.mu + c.hardening)
             s.plastic_strain += flow
-            change = (-ti.static(sqrt(1.5)) * flow / size) * deviator
-            H, s = flowed(H, V, change, s)
-            e += change
-        return H, s, assembled(Hencky.principal_stress(c, e), V)
+            part = -ti.static(sqrt(1.5)) * flow / size
+            H, s = Flowing.flowed(H, s, part * D, part * D_zz)
+            e += part * D
+        return H, s, Hencky.stress(c, e, volume)
 
     @staticmethod
     @ti.func

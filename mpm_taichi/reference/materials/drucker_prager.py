@@ -3,10 +3,9 @@ mpm_taichi/materials/drucker_prager.py for the sources."""
 
 import numpy as np
 
-from .flowing import Flowing, across, flowed
+from .flowing import Flowing
 from .hencky import Hencky
 from .invariants import exp_less_one
-from .principal import assembled, logarithmic_strains
 
 
 class DruckerPrager(Flowing):
@@ -14,25 +13,26 @@ class DruckerPrager(Flowing):
 
     @staticmethod
     def update(c, H, L, dt, s):
-        trial, V = logarithmic_strains(H, across(H, s))
+        e, e_zz, trial = Flowing.strain(H, s)
+        D, D_zz, size = Flowing.deviator(e, e_zz, trial)
         closing = c.correction * s.opened
-        volume = trial.sum() + closing
-        deviator = trial - trial.sum() / 3
-        size = np.linalg.norm(deviator)
+        volume, part, flows = trial + closing, 1.0, False
         largest = (c.strength - c.slope * (c.lam + 2 / 3 * c.mu) * volume) / (2 * c.mu)
-        e, flows = trial, False
         if volume >= (c.tear if s.opened == 0 else 0.0):
-            s.opened = s.opened + trial.sum()
-            e, flows = np.zeros(3), True
+            s.opened = s.opened + trial
+            volume, part, flows = 0.0, 0.0, True
         elif size > largest or closing > 0:
             s.opened = s.opened - closing
-            part = min(1.0, largest / size)
+            part, flows = min(1.0, largest / size), True
             s.plastic_strain = s.plastic_strain + np.sqrt(2 / 3) * (1 - part) * size
-            e, flows = part * deviator + volume / 3, True
         if flows:
-            s.dissipated = s.dissipated + Hencky.energy_of(c, trial) - Hencky.energy_of(c, e)
-            H, s = flowed(H, V, e - trial, s)
-        return H, s, assembled(Hencky.principal_stress(c, e), V)
+            lost = Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
+            s.dissipated = s.dissipated + lost
+            swelling = (volume - trial) / 3
+            change = (part - 1) * D + swelling * np.eye(len(H))
+            H, s = Flowing.flowed(H, s, change, (part - 1) * D_zz + swelling)
+            e = e + change
+        return H, s, Hencky.stress(c, e, volume)
 
     @staticmethod
     def volume_ratio(c, H, s):

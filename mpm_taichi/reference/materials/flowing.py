@@ -1,34 +1,53 @@
 """Hencky solids that flow: F is that of what is stored elastically, and in plane strain the elastic
 stretch across the plane is part of the history, so that yield surfaces are those of 3D."""
 
+import numpy as np
+
 from .hencky import Hencky
-from .invariants import exp_less_one, volume_strain
+from .invariants import exp_less_one, log_volume_ratio, volume_strain
 from .law import MaterialLaw
-from .principal import compound, logarithmic_strains, strained
-
-
-def across(H, s):
-    """Elastic stretch across the plane, less one; 0 in 3D, where there is none."""
-    return s.out_of_plane if len(H) == 2 else 0.0
-
-
-def flowed(H, V, change, s):
-    """H and history after principal strains [3] along the axes V have changed."""
-    if len(H) == 2:
-        s.out_of_plane = compound(s.out_of_plane, exp_less_one(change[2]))
-    return strained(H, V, change), s
+from .symmetric import exponential
 
 
 class Flowing(MaterialLaw):
+    """Strains are e in the plane or in space, and e_zz across the plane, in space 0."""
+
+    @staticmethod
+    def strain(H, s):
+        e, e_zz = Hencky.strain(H), s.strain_across if len(H) == 2 else 0.0
+        return e, e_zz, e.trace() + e_zz
+
+    @staticmethod
+    def deviator(e, e_zz, volume):
+        e = e - volume / 3 * np.eye(len(e))
+        e_zz = e_zz - volume / 3 if len(e) == 2 else 0.0
+        return e, e_zz, np.sqrt((e**2).sum() + e_zz**2)
+
+    @staticmethod
+    def energy(c, size, volume):
+        return c.mu * size**2 + (0.5 * c.lam + c.mu / 3) * volume**2
+
+    @staticmethod
+    def flowed(H, s, change, change_zz):
+        if len(H) == 2:
+            s.strain_across = s.strain_across + change_zz
+        G = exponential(change)
+        return H + G + G @ H, s
+
     @staticmethod
     def energy_density(c, H, s):
-        return Hencky.energy_of(c, logarithmic_strains(H, across(H, s))[0])
+        e, e_zz, volume = Flowing.strain(H, s)
+        _, _, size = Flowing.deviator(e, e_zz, volume)
+        return Flowing.energy(c, size, volume)
 
     @staticmethod
     def volume_ratio(c, H, s):
-        return 1 + compound(volume_strain(H), across(H, s))
+        strain = volume_strain(H)
+        if len(H) == 2:
+            strain += (1 + strain) * exp_less_one(s.strain_across)
+        return 1 + strain
 
     @staticmethod
     def out_of_plane_stress(c, H, s):
-        e, _ = logarithmic_strains(H, across(H, s))
-        return Hencky.principal_stress(c, e)[2]
+        log_J = log_volume_ratio(volume_strain(H))
+        return 2 * c.mu * s.strain_across + c.lam * (log_J + s.strain_across)

@@ -1,30 +1,33 @@
-"""St. Venant-Kirchhoff solid in logarithmic strain: Hencky (1928), Z. Tech. Phys. 9; Klar et al.
-(2016), Drucker-Prager elastoplasticity for sand animation, section 6."""
+"""St. Venant-Kirchhoff solid in logarithmic strain; see mpm_taichi/materials/hencky.py."""
 
+import numpy as np
+
+from .invariants import left_strain, log_volume_ratio, volume_strain
 from .law import MaterialLaw
-from .principal import assembled, logarithmic_strains
+from .symmetric import logarithm
 
 
 class Hencky(MaterialLaw):
-    """psi = mu sum e_i^2 + lam/2 (sum e_i)^2 with e_i = ln s_i;  tau_i = 2 mu e_i + lam sum e."""
+    """psi = mu e : e + lam/2 (tr e)^2;  tau = 2 mu e + lam tr(e) I;  e = ln(F F^T) / 2."""
 
     @staticmethod
-    def principal_stress(c, e):
-        return 2 * c.mu * e + c.lam * e.sum()
+    def strain(H):
+        return 0.5 * logarithm(left_strain(H))
 
     @staticmethod
-    def energy_of(c, e):
-        return c.mu * (e**2).sum() + 0.5 * c.lam * e.sum() ** 2
+    def stress(c, e, volume):
+        return 2 * c.mu * e + c.lam * volume * np.eye(len(e))
 
     @staticmethod
     def update(c, H, L, dt, s):
-        e, V = logarithmic_strains(H, 0.0)
-        return H, s, assembled(Hencky.principal_stress(c, e), V)
+        e = Hencky.strain(H)
+        return H, s, Hencky.stress(c, e, e.trace())
 
     @staticmethod
     def energy_density(c, H, s):
-        return Hencky.energy_of(c, logarithmic_strains(H, 0.0)[0])
+        e = Hencky.strain(H)
+        return c.mu * (e**2).sum() + 0.5 * c.lam * e.trace() ** 2
 
     @staticmethod
     def out_of_plane_stress(c, H, s):
-        return c.lam * logarithmic_strains(H, 0.0)[0].sum()
+        return c.lam * log_volume_ratio(volume_strain(H))

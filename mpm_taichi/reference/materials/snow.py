@@ -6,7 +6,7 @@ import numpy as np
 
 from .invariants import exp_less_one, left_strain, volume_strain
 from .law import MaterialLaw
-from .principal import assembled, compound, eigen
+from .symmetric import assembled, eigen
 
 
 class Snow(MaterialLaw):
@@ -54,6 +54,11 @@ class Snow(MaterialLaw):
     def out_of_plane_stress(c, H, s):
         strain = volume_strain(H)
         return Snow.hardness(c, s) * c.lam * strain * (1 + strain)
+
+
+def compound(a, b):
+    """(1 + a) (1 + b) - 1."""
+    return a + b + a * b
 
 
 def volume_of(x):

@@ -3,9 +3,8 @@ mpm_taichi/materials/von_mises.py for the sources."""
 
 import numpy as np
 
-from .flowing import Flowing, across, flowed
+from .flowing import Flowing
 from .hencky import Hencky
-from .principal import assembled, logarithmic_strains
 
 
 class VonMises(Flowing):
@@ -13,17 +12,16 @@ class VonMises(Flowing):
 
     @staticmethod
     def update(c, H, L, dt, s):
-        e, V = logarithmic_strains(H, across(H, s))
-        deviator = e - e.sum() / 3
-        size = np.linalg.norm(deviator)
+        e, e_zz, volume = Flowing.strain(H, s)
+        D, D_zz, size = Flowing.deviator(e, e_zz, volume)
         excess = np.sqrt(6) * c.mu * size - (c.yield_stress + c.hardening * s.plastic_strain)
         if excess > 0:
             flow = excess / (3 * c.mu + c.hardening)
             s.plastic_strain = s.plastic_strain + flow
-            change = -np.sqrt(1.5) * flow / size * deviator
-            H, s = flowed(H, V, change, s)
-            e = e + change
-        return H, s, assembled(Hencky.principal_stress(c, e), V)
+            part = -np.sqrt(1.5) * flow / size
+            H, s = Flowing.flowed(H, s, part * D, part * D_zz)
+            e = e + part * D
+        return H, s, Hencky.stress(c, e, volume)
 
     @staticmethod
     def dissipated_energy(c, H, s):

@@ -5,7 +5,7 @@ import pytest
 import taichi as ti
 
 from mpm_taichi import runtime
-from mpm_taichi.materials.principal import eigen
+from mpm_taichi.materials.symmetric import eigen
 from mpm_taichi.runtime import Array, Template
 
 from ..laws import rotations
