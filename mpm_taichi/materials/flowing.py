@@ -31,13 +31,12 @@ class Flowing(Elastic):
     @ti.func
     def deviator(e, e_zz, volume):
         """Of the strain: in the plane or in space, across the plane, and its norm."""
+        D, D_zz = e, 0.0
         for d in ti.static(range(e.n)):
-            e[d, d] -= volume / 3.0
-        squares = e.norm_sqr()
+            D[d, d] -= volume / 3.0
         if ti.static(e.n == 2):
-            e_zz -= volume / 3.0
-            squares += e_zz * e_zz
-        return e, e_zz, ti.sqrt(squares)
+            D_zz = e_zz - volume / 3.0
+        return D, D_zz, ti.sqrt(D.norm_sqr() + D_zz * D_zz)
 
     @staticmethod
     @ti.func

@@ -150,11 +150,12 @@ def of_square_root():
 @ti.func
 def is_above(A, x) -> Any:
     """Whether all values of a symmetric matrix are above x: the corners of A - x I are positive."""
+    B = A
     for d in ti.static(range(A.n)):
-        A[d, d] -= x
-    above = A[0, 0] > 0.0 and A[0, 0] * A[1, 1] > A[0, 1] * A[0, 1]
+        B[d, d] -= x
+    above = B[0, 0] > 0.0 and B[0, 0] * B[1, 1] > B[0, 1] * B[0, 1]
     if ti.static(A.n == 3):
-        above = above and A.determinant() > 0.0
+        above = above and B.determinant() > 0.0
     return above
 
 

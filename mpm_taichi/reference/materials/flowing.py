@@ -19,9 +19,9 @@ class Flowing(MaterialLaw):
 
     @staticmethod
     def deviator(e, e_zz, volume):
-        e = e - volume / 3 * np.eye(len(e))
-        e_zz = e_zz - volume / 3 if len(e) == 2 else 0.0
-        return e, e_zz, np.sqrt((e**2).sum() + e_zz**2)
+        D = e - volume / 3 * np.eye(len(e))
+        D_zz = e_zz - volume / 3 if len(e) == 2 else 0.0
+        return D, D_zz, np.sqrt((D**2).sum() + D_zz**2)
 
     @staticmethod
     def energy(c, size, volume):
