@@ -17,8 +17,10 @@ class Snow(Elastic):
     """Fixed-corotated, with mu and lam times exp(xi (1 - J_P)): packed snow is harder.  Stretches
     of the elastic part stay within [1 - theta_c, 1 + theta_s]; what lies beyond goes into J_P.
 
-    In plane strain the stretch across the plane is 1, within the limits: no history.  Hardening is
-    capped, as the time step has to be stable for the hardest snow; a cap that acts is counted."""
+    The clamps are no flow along a potential: where a stretch is clamped under pressure from the
+    sides, they give back a little energy.  In plane strain the stretch across the plane is 1,
+    within the limits: no history.  Hardening is capped, as the time step has to be stable for the
+    hardest snow; a cap that acts is counted."""
 
     counters = {"capped": "hardening of snow capped"}
 

@@ -7,7 +7,7 @@ import numpy as np
 import taichi as ti
 
 from ..runtime import Template, real_type
-from .invariants import exp_less_one, log_volume_ratio
+from .invariants import log_volume_ratio
 from .polar import cofactors
 
 
@@ -109,16 +109,16 @@ def logarithm(A) -> Any:
 
 @ti.func
 def exponential(A) -> Any:
-    """exp(A) - I, to some rounding errors of |A|; by powers where |A| is small, else by values."""
-    result = A
-    if A.norm_sqr() < SMALL**2:
-        result = powers(A, ti.static(of_exponential()))
-    else:
-        values, V = eigen(A)
-        for d in ti.static(range(A.n)):
-            values[d] = exp_less_one(values[d])
-        result = assembled(values, V)
-    return result
+    """exp(A) - I, to some rounding errors of |A|: by powers where |A| is small, else from the half,
+    exp(2 A) - I = E (2 I + E) with E = exp(A) - I."""
+    size, halvings = A.norm(), 0
+    while size > SMALL and halvings < 10:
+        size *= 0.5
+        halvings += 1
+    E = powers(A / 2.0**halvings, ti.static(of_exponential()))
+    for _ in range(halvings):
+        E = 2.0 * E + E @ E
+    return E
 
 
 SMALL = 0.1

