@@ -1,5 +1,6 @@
 """frames/frame_0000.png, ...: a picture at each output."""
 
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 
 class Images:
     """Pictures by the offscreen renderer.  Where the scene gives no range, the color scale is the
-    widest that the run has shown so far."""
+    widest that the run has shown so far, with 0 but for density."""
 
     every_steps = None
 
@@ -15,7 +16,8 @@ class Images:
         folder.mkdir(exist_ok=True)
         self.folder, self.style = folder, style
         self.count = 0
-        self.low, self.high = (0.0, 0.0) if style.range is None else style.range
+        widest = (inf, -inf) if style.color_by == "density" else (0.0, 0.0)
+        self.low, self.high = widest if style.range is None else style.range
 
     def record(self, simulation, is_output):
         if not is_output:
@@ -59,4 +61,6 @@ class Images:
             "speed": lambda: snapshot.speed,
             "pressure": lambda: snapshot.pressure,
             "stress": lambda: snapshot.von_mises_stress,
+            "density": lambda: snapshot.density,
+            "plastic_strain": lambda: snapshot.plastic_strain,
         }[self.style.color_by]()

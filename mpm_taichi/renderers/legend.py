@@ -90,13 +90,15 @@ def color_bar(
     left, row = right - columns, camera.height - round(3.4 * em)
     shades = quantity.colors(np.linspace(0, 1, columns))
     image[row : row + round(0.6 * em), left:right] = shades
-    labels, unit = tick_labels([low, (low + high) / 2, high], quantity.unit)
+    ticks = [low, (low + high) / 2, high]
+    labels, unit = tick_labels(ticks, quantity.unit, quantity.prefixed)
     ends = zip((left, (left + right) / 2, right), labels, ("ls", "ms", "rs"), strict=True)
     numbers = [
         Text((column, camera.height - 1.4 * em), label, 0.9 * em, palette.FAINT_INK, anchor)
         for column, label, anchor in ends
     ]
-    return [Text((left, row - 0.5 * em), f"{name} [{unit}]", em, palette.INK, "ls"), *numbers]
+    words = f"{name.replace('_', ' ')} [{unit}]"
+    return [Text((left, row - 0.5 * em), words, em, palette.INK, "ls"), *numbers]
 
 
 def body_names(image: np.ndarray, camera: Camera, names: list[str]) -> list[Text]:

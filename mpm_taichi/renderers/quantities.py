@@ -14,12 +14,15 @@ class Quantity:
     unit: str
     colors: Callable[[np.ndarray], np.ndarray]  # fraction [n] of the range -> RGB [n, 3]
     signed: bool = False  # the range is symmetric about 0
+    prefixed: bool = True  # km/s and MPa, but neither kkg/m^3 nor m-
 
 
 QUANTITIES = {
     "speed": Quantity("m/s", palette.sequential),
     "stress": Quantity("Pa", palette.sequential),
     "pressure": Quantity("Pa", palette.diverging, signed=True),
+    "density": Quantity("kg/m^3", palette.sequential, prefixed=False),
+    "plastic_strain": Quantity("-", palette.sequential, prefixed=False),
 }
 
 

@@ -28,9 +28,9 @@ def round_length(longest: float) -> float:
     return max(factor * power for factor in (0.5, 1, 2, 5) if factor * power <= longest)
 
 
-def tick_labels(values: list[float], unit: str) -> tuple[list[str], str]:
-    """Values in one prefixed unit, to a hundredth of their range, and the unit."""
-    factor, name = prefix(max(abs(value) for value in values))
+def tick_labels(values: list[float], unit: str, prefixed: bool = True) -> tuple[list[str], str]:
+    """Values in one unit, prefixed or plain, to a hundredth of their range, and the unit."""
+    factor, name = prefix(max(abs(value) for value in values)) if prefixed else (1.0, "")
     span = (max(values) - min(values)) / factor
     decimals = min(max(2 - math.floor(math.log10(span)), 0), 9)
     labels = [f"{round(value / factor, decimals) + 0.0:.{decimals}f}" for value in values]

@@ -162,9 +162,10 @@ def _increasing(limits: list[float] | None) -> list[float] | None:
 class Images(Model):
     """Pictures of the particles."""
 
-    color_by: Literal["body", "speed", "pressure", "stress"] = Field(
+    color_by: Literal["body", "speed", "pressure", "stress", "density", "plastic_strain"] = Field(
         default="speed",
-        description="what the color shows: body, speed [m/s], pressure, von Mises [Pa]",
+        description="what the color shows: body, speed [m/s], pressure or von Mises stress [Pa], "
+        "density [kg/m^3], equivalent plastic strain [-]",
     )
     grid: float = Field(default=0.25, ge=0, le=1, description="opacity of the grid overlay")
     size: int = Field(default=900, ge=64, le=8192, description="longer side [pixels]")

@@ -1,17 +1,24 @@
 """The pictures: what is where in them, in which color, and that their bytes can be relied on."""
 
 import zlib
+from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
 from PIL import Image
 
 from mpm_taichi import runtime
+from mpm_taichi.recorders import Images
 from mpm_taichi.renderers import Frame, draw, legend, palette, write_png
 from mpm_taichi.renderers.camera import corners, fit
 from mpm_taichi.renderers.quantities import QUANTITIES, shown_range
 from mpm_taichi.renderers.rasterizer import draw_discs, draw_lines
 from mpm_taichi.renderers.units import prefix, round_length, tick_labels, with_unit
+from mpm_taichi.scene import Images as Style
+from mpm_taichi.scene import load_scene
+from mpm_taichi.snapshot import Snapshot
+from tests.command_line import SCENES
 
 pytestmark = pytest.mark.filterwarnings("error::RuntimeWarning")
 
@@ -192,6 +199,7 @@ class TestUnits:
         assert tick_labels([0, 0.5, 1], "m/s") == (["0", "0.5", "1"], "m/s")
         assert tick_labels([-2e5, 0, 2e5], "Pa") == (["-200", "0", "200"], "kPa")
         assert tick_labels([100.0, 100.05, 100.1], "Pa") == (["100", "100.05", "100.1"], "Pa")
+        assert tick_labels([0, 4e3, 8e3], "kg/m^3", False) == (["0", "4000", "8000"], "kg/m^3")
 
     def test_ranges(self, rng):
         """The range of a legend is never empty, and has zero in the middle for a signed one."""
@@ -460,3 +468,39 @@ class TestPicture:
         assert clock(0.0, 3.5) == "t = 0.000 s"
         assert clock(2e-5, 1e-3) == "t = 0.020 ms"
         assert clock(12345.0, 2e4) == "t = 12345.000 s"
+
+
+COLOR_BY = get_args(Style.model_fields["color_by"].annotation)
+
+
+@pytest.mark.parametrize("color_by", COLOR_BY)
+def test_recorder_shows_every_quantity(tmp_path, rng, color_by):
+    """Each value of output.images.color_by is drawn, and the scale of the colors is that of the
+    values so far: with 0, but for density, where 990 to 1010 kg/m^3 would be one color."""
+    scene = load_scene(SCENES / "two_disks_lattice.yaml")
+    density, strain = rng.uniform(990, 1010, 5), rng.uniform(0, 2, 5)
+    snapshot = Snapshot(
+        time=0.0,
+        step=0,
+        position=rng.random((5, 2)),
+        velocity=rng.random((5, 2)),
+        mass=np.full(5, 1e-3),
+        initial_volume=np.full(5, 2e-6),
+        deformation_gradient=np.tile(np.eye(2), (5, 1, 1)),
+        cauchy_stress=rng.random((5, 3, 3)),
+        energy_density=np.zeros(5),
+        volume_ratio=500 / density,
+        plastic_strain=strain,
+        spin=np.zeros((5, 2, 2)),
+    )
+    simulation = SimpleNamespace(
+        scene=scene, snapshot=snapshot, end=1.0, body_of_particle=np.zeros(5, int)
+    )
+    recorder = Images(tmp_path / "frames", simulation, Style(color_by=color_by, size=64))
+    recorder.record(simulation, is_output=True)
+    assert len(list(recorder.folder.iterdir())) == recorder.count == 1
+    if color_by == "density":
+        assert [recorder.low, recorder.high] == pytest.approx([density.min(), density.max()])
+    elif color_by == "plastic_strain":
+        assert (recorder.low, recorder.high) == (0, strain.max())
+    assert color_by in QUANTITIES or color_by == "body"

@@ -132,8 +132,8 @@ SECTIONS = [
     (
         "color_by: speed",
         "color_by: sped",
-        "26:32: output.images.color_by: must be one of body, speed, pressure, stress (got 'sped'); "
-        "did you mean 'speed'?",
+        "26:32: output.images.color_by: must be one of body, speed, pressure, stress, density, "
+        "plastic_strain (got 'sped'); did you mean 'speed'?",
     ),
     (
         "color_by: speed",
