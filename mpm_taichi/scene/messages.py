@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from .schema import choices, follow, is_union, resolve, value_at
-from .wording import shown, suggestion
+from .wording import must_be_one_of, shown, suggestion
 
 BOUNDS = {
     "exclusiveMinimum": "greater than",
@@ -33,10 +33,13 @@ def messages(errors: Iterable, data) -> dict[tuple[tuple, str], None]:
             sentence = "unknown key" + (suggestion(path[-1], known) or listed)
         elif kind == "union_tag_invalid":
             path = (*path, "type")
-            sentence = _choice(list(rule["discriminator"]["mapping"]), value_at(path, data))
+            sentence = must_be_one_of(rule["discriminator"]["mapping"], value_at(path, data))
         elif kind == "union_tag_not_found":
             path = (*path, "type")
-            sentence = f"is required: {' or '.join(rule['discriminator']['mapping'])}"
+            words = rule["discriminator"]["mapping"]
+            presets = len(rule["oneOf"]) > len(words)  # mappings that need no type
+            condition = " where there is no preset" * presets
+            sentence = f"is required{condition}: {' or '.join(words)}"
         elif kind == "missing":
             sentence = f"is required: {described(rule)}"
         elif kind == "value_error":
@@ -44,7 +47,7 @@ def messages(errors: Iterable, data) -> dict[tuple[tuple, str], None]:
         elif kind in OUT_OF_BOUNDS and not is_union(rule):
             sentence = f"must be {_bounds(rule)} (got {shown(value)})"
         elif kind == "literal_error" and len(rule.get("enum", ())) > 1:
-            sentence = _choice(rule["enum"], value)
+            sentence = must_be_one_of(rule["enum"], value)
         else:
             sentence = f"must be {described(rule)} (got {shown(value)})"
             sentence += suggestion(value, _words(rule)) if isinstance(value, str) else ""
@@ -85,11 +88,6 @@ def _described_list(rule: dict) -> str:
 def _bounds(rule: dict) -> str:
     """`greater than -1 and less than 0.5`."""
     return " and ".join(f"{word} {rule[key]:g}" for key, word in BOUNDS.items() if key in rule)
-
-
-def _choice(words: list, value) -> str:
-    listed = ", ".join(str(word) for word in words)
-    return f"must be one of {listed} (got {shown(value)})" + suggestion(value, map(str, words))
 
 
 def _words(rule: dict) -> list[str]:

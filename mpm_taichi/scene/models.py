@@ -4,7 +4,6 @@ from functools import reduce
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, ValidationError, model_validator
-from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from ..bases import BASES, BasisName
 from ..boundaries import RULES, RuleName, Wall
@@ -16,6 +15,8 @@ from ..sampling import Sampling
 from ..shapes import Shape
 from ..transfers import APICChoice, FLIPChoice, FlipPart, Transfer, XPICChoice
 from .checks import across
+from .presets import OrPreset
+from .wording import in_words
 
 VectorField = Annotated[list[Formula], Field(min_length=2, max_length=3)]
 """A number or a formula for each axis."""
@@ -228,8 +229,8 @@ class Scene(Model):
         description="force per mass at the particles [m/s^2], formulas of the undeformed place X, "
         "Y, Z, the place x, y, z and the time t; adds to gravity; default 0",
     )
-    materials: Annotated[dict[str, Material], Field(min_length=1)] = Field(
-        description="materials by name"
+    materials: Annotated[dict[str, Annotated[Material, OrPreset()]], Field(min_length=1)] = Field(
+        description="materials by name: a law (type) with its values, or a preset and what differs"
     )
     bodies: Annotated[list[Body], Field(min_length=1)] = Field(description="bodies at the start")
     exact: Exact | None = Field(default=None, description="the solution, if it is known")
@@ -240,12 +241,7 @@ class Scene(Model):
         sections = {name: getattr(self, name) for name in type(self).model_fields}
         sections["bodies"] = dict(enumerate(self.bodies))
         faults = [
-            InitErrorDetails(
-                type=PydanticCustomError("scene", "{text}", {"text": text}),
-                loc=place,
-                input=reduce(_member, place, self),
-            )
-            for place, text in across(sections)
+            in_words(place, text, reduce(_member, place, self)) for place, text in across(sections)
         ]
         if faults:
             raise ValidationError.from_exception_data("Scene", faults)

@@ -17,15 +17,15 @@ def scene_schema() -> dict:
 def follow(location: tuple, data) -> tuple[tuple, dict, dict]:
     """Path in the file, rule for the value there and rule for the mapping or list that holds it.
 
-    `location` is pydantic's: after a union it names the branch taken, which the file does not
+    `location` is pydantic's: after a union it names the branch taken, which the file need not
     have.  A rule is a part of the schema, {} where the schema says nothing."""
     path, holder, rule = (), {}, scene_schema()
-    branch_comes = False
+    branch, branch_comes = None, False
     for part in location:
         if branch_comes:
-            branch_comes = False
+            branch, branch_comes = part, False
             continue
-        holder = _branch(rule, data)
+        holder = _branch(rule, branch, data)
         if isinstance(part, int):
             rule = holder.get("items", {})
         else:
@@ -63,17 +63,15 @@ def is_union(rule: dict) -> bool:
     return len(choices(rule)) > 1
 
 
-def _branch(rule: dict, data) -> dict:
-    """The rule of the branch that the data took."""
+def _branch(rule: dict, name, data) -> dict:
+    """The rule of the branch that the data took, of the name that pydantic gave it."""
     rule = resolve(rule)
     if "discriminator" in rule:
-        word = _member(data, rule["discriminator"]["propertyName"])
-        reference = rule["discriminator"]["mapping"].get(word) if isinstance(word, str) else None
-        return resolve({"$ref": reference}) if reference else {}
+        return resolve({"$ref": rule["discriminator"]["mapping"][name]})
     kind = {dict: "object", list: "array"}.get(type(data))
     for branch in map(resolve, choices(rule)):
         if "discriminator" in branch or branch.get("type") == kind:
-            return _branch(branch, data)
+            return _branch(branch, name, data)
     return rule
 
 

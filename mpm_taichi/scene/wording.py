@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
 Found = tuple[tuple[str | int, ...], str]
 """A fault: the location of a key and the sentence that follows it."""
 
@@ -36,6 +38,18 @@ def suggestion(word: object, known: Iterable[str]) -> str:
     words = {candidate.lower(): candidate for candidate in known}
     close = get_close_matches(str(word).lower(), words, 1)
     return f"; did you mean '{words[close[0]]}'?" if close else ""
+
+
+def must_be_one_of(words: Iterable[object], value) -> str:
+    """Of a value that is none of the words."""
+    known = list(map(str, words))
+    return f"must be one of {', '.join(known)} (got {shown(value)})" + suggestion(value, known)
+
+
+def in_words(place: tuple, text: str, value) -> InitErrorDetails:
+    """A fault for pydantic to raise, with a text that the reader shows as it is."""
+    kind = PydanticCustomError("scene", "{text}", {"text": text})
+    return InitErrorDetails(type=kind, loc=place, input=value)
 
 
 def wrong_length(vector: list, domain) -> str:

@@ -167,13 +167,16 @@ MATERIALS_AND_BODIES = [
     (
         "type: neo_hookean",
         "type: neohookean",
-        "12:5: materials.soft.type: must be one of fixed_corotated, linear_elastic, neo_hookean "
-        "(got 'neohookean'); did you mean 'neo_hookean'?",
+        "12:5: materials.soft.type: must be one of drucker_prager, fixed_corotated, fluid, gas, "
+        "hencky, hypoelastic, linear_elastic, neo_hookean, snow, von_mises (got 'neohookean'); did "
+        "you mean 'neo_hookean'?",
     ),
     (
         "    type: neo_hookean\n",
         "",
-        "11:3: materials.soft.type: is required: fixed_corotated or linear_elastic or neo_hookean",
+        "11:3: materials.soft.type: is required where there is no preset: drucker_prager or "
+        "fixed_corotated or fluid or gas or hencky or hypoelastic or linear_elastic or neo_hookean "
+        "or snow or von_mises",
     ),
     (
         "    density: 1e3\n",

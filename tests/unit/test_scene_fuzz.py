@@ -52,10 +52,10 @@ VALUES = st.recursive(
     | st.booleans()
     | st.integers(-(10**17), 10**17)
     | st.floats(allow_nan=False, allow_infinity=False)
-    | st.sampled_from(["auto", "none", "slip", "ball", "mesh", "gmsh", "rubber", "/"]),
+    | st.sampled_from(["auto", "none", "slip", "ball", "mesh", "gmsh", "rubber", "snow", "/"]),
     lambda inner: (
         st.lists(inner, max_size=3)
-        | st.dictionaries(st.sampled_from(["type", "file", "size", "min", "left"]), inner)
+        | st.dictionaries(st.sampled_from(["type", "file", "size", "min", "left", "preset"]), inner)
     ),
     max_leaves=4,
 )
