@@ -18,6 +18,7 @@ COMMANDS = {
     "check": "validate and seed a scene, and show the plan: particles, memory, time step, steps",
     "converge": "run a scene at successive resolutions: errors, observed order, picture",
     "advise": "which schemes were shown to reach an error, and how far the scene is from where",
+    "materials": "list the laws with their parameters, and the presets with their sources",
     "schema": "print the JSON Schema of scene files, for editors",
 }
 
@@ -54,6 +55,9 @@ def parser() -> argparse.ArgumentParser:
     for name, text in COMMANDS.items():
         command = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
         if name == "schema":
+            continue
+        if name == "materials":
+            command.add_argument("name", nargs="?", metavar="NAME", help="tell of one in full")
             continue
         command.add_argument("scene", type=Path, help="scene file (YAML)")
         command.add_argument(
@@ -170,6 +174,11 @@ def _dispatch(options) -> int:
 
     if options.command == "schema":
         print(json.dumps(scene_schema(), indent=2))
+        return 0
+    if options.command == "materials":
+        from .catalogue import catalogue, entry
+
+        print(catalogue() if options.name is None else entry(options.name))
         return 0
     changes = list(options.set)
     scene = load_scene(options.scene, changes)

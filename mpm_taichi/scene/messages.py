@@ -68,6 +68,8 @@ def described(rule: dict) -> str:
     if kind in ("number", "integer"):
         bounds = _bounds(rule)
         return f"a {NOUNS[kind]}{' of' * bounds.startswith('at')} {bounds}".rstrip()
+    if kind == "boolean":
+        return "true or false"
     if kind == "array":
         return _described_list(rule)
     if kind == "object":

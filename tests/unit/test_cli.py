@@ -276,7 +276,8 @@ def test_a_library_that_is_missing(tmp_path):
         (["chekc", "x.yaml"], "did you mean 'check'?"),
         (
             ["x.txt"],
-            "'x.txt' is neither a command nor a .yaml file (run, check, converge, advise, schema)",
+            "'x.txt' is neither a command nor a .yaml file (run, check, converge, advise, "
+            "materials, schema)",
         ),
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),

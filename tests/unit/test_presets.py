@@ -143,6 +143,10 @@ WRONG = [
     ("{preset: air, density: }", "10:25: materials.rubber.density: must be a number greater than 0 "
      "(got nothing)"),
     (
+        "{preset: dry_sand, volume_correction: 1}",
+        "10:30: materials.rubber.volume_correction: must be true or false (got 1)",
+    ),
+    (
         "{presett: snow}",
         f"10:3: materials.rubber.type: is required where there is no preset: {LAWS}",
     ),
