@@ -15,7 +15,8 @@ from pydantic import Field
 
 from .ball import Ball
 from .box import Box
+from .cylinder import Cylinder
 from .ring import Ring
 
-SHAPES = (Ball, Box, Ring)
-Shape = Annotated[Ball | Box | Ring, Field(discriminator="type")]
+SHAPES = (Ball, Box, Cylinder, Ring)
+Shape = Annotated[Ball | Box | Cylinder | Ring, Field(discriminator="type")]

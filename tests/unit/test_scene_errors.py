@@ -208,10 +208,14 @@ MATERIALS_AND_BODIES = [
     (
         "type: ball,",
         "type: bal,",
-        "19:13: bodies[0].shape.type: must be one of ball, box, ring (got 'bal'); did you mean "
-        "'ball'?",
+        "19:13: bodies[0].shape.type: must be one of ball, box, cylinder, ring (got 'bal'); did "
+        "you mean 'ball'?",
     ),
-    ("type: ball, ", "", "19:5: bodies[0].shape.type: is required: ball or box or ring"),
+    (
+        "type: ball, ",
+        "",
+        "19:5: bodies[0].shape.type: is required: ball or box or cylinder or ring",
+    ),
     (
         ", radius: 0.2}",
         ", radus: 0.2}",
