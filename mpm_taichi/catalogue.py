@@ -8,7 +8,7 @@ from textwrap import fill, shorten
 from typing import get_args
 
 from .errors import InputError
-from .materials import MATERIALS
+from .materials import MATERIALS, Material
 from .materials.presets import PRESETS
 from .scene.messages import described
 from .scene.wording import suggestion
@@ -23,7 +23,7 @@ def catalogue() -> str:
     lines = ["laws (type), with units and defaults:", ""]
     for name, law in LAWS.items():
         lines += [shorten(f"{name}: {_what(law)}", WIDTH, placeholder=" ...")]
-        lines += [_listed(_parameters(law)), ""]
+        lines += [wrapped(unbroken(_parameters(law)), indent=2), ""]
     lines += ["presets (preset), each value of which a scene can replace:", ""]
     for name in PRESETS:
         lines += [*_preset(name), ""]
@@ -63,11 +63,16 @@ def _law(name: str) -> Iterator[str]:
 def _preset(name: str) -> Iterator[str]:
     material, source, remark = PRESETS[name]
     yield f"{name}: preset of the law {material.type}"
-    fields = type(material).model_fields
-    values = [(key, value) for key, value in material if key != "type"]
-    yield _listed(f"{key} {_text(value)} {_unit(fields[key])}".rstrip() for key, value in values)
-    yield _indented(f"source: {source}")
-    yield _indented(f"remark: {remark}")
+    yield wrapped(unbroken(constants(material)), indent=2)
+    yield wrapped(f"source: {source}", indent=2)
+    yield wrapped(f"remark: {remark}", indent=2)
+
+
+def constants(material: Material) -> Iterator[str]:
+    """`density 1000 kg/m^3` and so on."""
+    for key, field in type(material).model_fields.items():
+        if key != "type":
+            yield f"{key} {_text(getattr(material, key))} {_unit(field)}".rstrip()
 
 
 def _what(law: type) -> str:
@@ -96,10 +101,12 @@ def _text(value) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _listed(items: Iterable[str]) -> str:
-    """Items that are not broken between lines."""
-    return _indented(", ".join(item.replace(" ", "\xa0") for item in items)).replace("\xa0", " ")
+def unbroken(items: Iterable[str]) -> str:
+    """A list whose items `wrapped` leaves on one line."""
+    return ", ".join(item.replace(" ", "\xa0") for item in items)
 
 
-def _indented(text: str) -> str:
-    return fill(text, WIDTH, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)
+def wrapped(text: str, width: int = WIDTH, indent: int = 0) -> str:
+    room = " " * indent
+    lines = fill(text, width, initial_indent=room, subsequent_indent=room, break_on_hyphens=False)
+    return lines.replace("\xa0", " ")

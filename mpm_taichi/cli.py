@@ -7,7 +7,7 @@ import difflib
 import json
 import os
 import sys
-from math import nan
+from math import inf, nan
 from pathlib import Path
 
 from . import __version__
@@ -19,6 +19,7 @@ COMMANDS = {
     "converge": "run a scene at successive resolutions: errors, observed order, picture",
     "advise": "which schemes were shown to reach an error, and how far the scene is from where",
     "materials": "list the laws with their parameters, and the presets with their sources",
+    "curve": "draw stress against strain of a material",
     "schema": "print the JSON Schema of scene files, for editors",
 }
 
@@ -58,6 +59,9 @@ def parser() -> argparse.ArgumentParser:
             continue
         if name == "materials":
             command.add_argument("name", nargs="?", metavar="NAME", help="tell of one in full")
+            continue
+        if name == "curve":
+            _add_curve(command)
             continue
         command.add_argument("scene", type=Path, help="scene file (YAML)")
         command.add_argument(
@@ -113,12 +117,64 @@ def _add_aim(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def _add_curve(command: argparse.ArgumentParser) -> None:
+    command.add_argument("what", metavar="WHAT", help="law, preset, or SCENE.yaml:MATERIAL")
+    command.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE",
+        help="change a value of the material: --set youngs_modulus=1e5",
+    )  # fmt: skip
+    command.add_argument(
+        "--path", choices=("uniaxial", "biaxial", "shear", "volumetric"), help="default: all four"
+    )
+    command.add_argument(
+        "--strain", type=_strain, metavar="S",
+        help="largest, of both signs, this one first; default: four times the shear at which the "
+        "material begins to flow, at most 0.3",
+    )  # fmt: skip
+    command.add_argument(
+        "--compression", type=_compression, default=0.0, metavar="C",
+        help="J goes from 1 to 1 - C first, so that sand can bear shear; default: 0",
+    )  # fmt: skip
+    command.add_argument("--rate", type=_rate, default=1.0, help="of strain [1/s]; default: 1")
+    command.add_argument("--dim", type=int, choices=(2, 3), default=3, help="2 is plane strain")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE.png",
+        help="picture, with a .csv beside it; default: the next of runs/curve-WHAT-001.png, ...",
+    )  # fmt: skip
+    command.add_argument("--overwrite", action="store_true", help="replace the files of -o")
+
+
+def _strain(text: str) -> float:
+    value = _number(text)
+    if not 0 < abs(value) < 1:
+        raise argparse.ArgumentTypeError(f"must be between 0 and 1, or -1 and 0 (got {text!r})")
+    return value
+
+
+def _compression(text: str) -> float:
+    value = _number(text)
+    if not 0 <= value < 1:
+        raise argparse.ArgumentTypeError(f"must be at least 0 and less than 1 (got {text!r})")
+    return value
+
+
+def _rate(text: str) -> float:
+    value = _number(text)
+    if not 0 < value < inf:
+        raise argparse.ArgumentTypeError(f"must be a number above 0 (got {text!r})")
+    return value
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return nan
+
+
 def _part(text: str) -> float:
     number = text.strip().removesuffix("%")
-    try:
-        value = float(number) / (100 if text.strip().endswith("%") else 1)
-    except ValueError:
-        value = nan
+    value = _number(number) / (100 if text.strip().endswith("%") else 1)
     if not 0 < value <= 1:
         raise argparse.ArgumentTypeError(
             f"must be a part such as 1% or 0.01, above 0 and at most 100% (got {text!r})"
@@ -156,7 +212,7 @@ def _with_command(words: list[str]) -> list[str]:
 def _first_plain_word(words: list[str]) -> int | None:
     takes_value = {
         "-o", "--output", "--set", "--device", "--precision", "--threads", "--frames", "--levels",
-        "--error", "--quantity",
+        "--error", "--quantity", "--path", "--strain", "--compression", "--rate", "--dim",
     }  # fmt: skip
     skip = False
     for number, word in enumerate(words):
@@ -180,6 +236,10 @@ def _dispatch(options) -> int:
 
         print(catalogue() if options.name is None else entry(options.name))
         return 0
+    if options.command == "curve":
+        from .curve import curve
+
+        return curve(options)
     changes = list(options.set)
     scene = load_scene(options.scene, changes)
     if getattr(options, "frames", None) is not None:

@@ -22,6 +22,9 @@ VectorField = Annotated[list[Formula], Field(min_length=2, max_length=3)]
 """A number or a formula for each axis."""
 
 
+MaterialOrPreset = Annotated[Material, OrPreset()]
+
+
 class Walls(Model):
     """A boundary rule for each side of the domain; `periodic` is that of both sides of an axis."""
 
@@ -229,7 +232,7 @@ class Scene(Model):
         description="force per mass at the particles [m/s^2], formulas of the undeformed place X, "
         "Y, Z, the place x, y, z and the time t; adds to gravity; default 0",
     )
-    materials: Annotated[dict[str, Annotated[Material, OrPreset()]], Field(min_length=1)] = Field(
+    materials: Annotated[dict[str, MaterialOrPreset], Field(min_length=1)] = Field(
         description="materials by name: a law (type) with its values, or a preset and what differs"
     )
     bodies: Annotated[list[Body], Field(min_length=1)] = Field(description="bodies at the start")

@@ -9,11 +9,22 @@ from pydantic import TypeAdapter, ValidationError
 
 from ..errors import InputError
 from ..formulas import Formula
+from ..materials import Material
 from ..model import Model, Vector
 from .checks import across
-from .document import Document, Fault, parse
+from .document import Document, Fault, Place, parse
 from .messages import messages
-from .models import Body, Domain, Exact, Method, Output, Scene, Time, VectorField
+from .models import (
+    Body,
+    Domain,
+    Exact,
+    MaterialOrPreset,
+    Method,
+    Output,
+    Scene,
+    Time,
+    VectorField,
+)
 from .overrides import override
 from .wording import path_text, printable, shown, suggestion
 
@@ -33,12 +44,7 @@ def load_scene(path: str | Path, overrides: Sequence[str] = ()) -> Scene:
         said = "is empty" if document.value is None else f"is {shown(document.value)}, no mapping"
         document.add((), f"{said}: a scene is a mapping that begins with version: 1")
         raise InputError(_lines(document.faults))
-    refused = []
-    for number, text in enumerate(overrides):
-        try:
-            override(document, text, number)
-        except InputError as error:
-            refused.append(printable(str(error)))
+    refused = _changed(document, overrides)
     _resolve_mesh_files(document.value, Path(path).absolute().parent)
     try:
         scene = Scene.model_validate(document.value)
@@ -47,6 +53,34 @@ def load_scene(path: str | Path, overrides: Sequence[str] = ()) -> Scene:
     except ValidationError as error:
         _add_faults(document, error)
     raise InputError("\n".join(filter(None, [_lines(document.faults), *refused])))
+
+
+def load_material(values: dict, overrides: Sequence[str] = ()) -> Material:
+    """The material of a mapping as a scene has it, with `youngs_modulus=1e5` and the like in place
+    of its values.  Otherwise an InputError with one line for each fault."""
+    document = Document(dict(values), {(): Place((0,), "material")})
+    refused = _changed(document, overrides)
+    try:
+        material = TypeAdapter(MaterialOrPreset).validate_python(document.value)
+        if not document.faults and not refused:
+            return material
+    except ValidationError as error:
+        place = ("materials", "this")  # the schema is that of scenes
+        errors = [{**e, "loc": (*place, *e["loc"])} for e in error.errors(include_url=False)]
+        for path, sentence in messages(errors, {"materials": {"this": document.value}}):
+            document.add(path[len(place) :], sentence)
+    raise InputError("\n".join(filter(None, [_lines(document.faults), *refused])))
+
+
+def _changed(document: Document, overrides: Sequence[str]) -> list[str]:
+    """Sets what the overrides say; returns what is wrong with those that cannot be set."""
+    refused = []
+    for number, text in enumerate(overrides):
+        try:
+            override(document, text, number)
+        except InputError as error:
+            refused.append(printable(str(error)))
+    return refused
 
 
 def _text(path: Path) -> str:

@@ -277,7 +277,7 @@ def test_a_library_that_is_missing(tmp_path):
         (
             ["x.txt"],
             "'x.txt' is neither a command nor a .yaml file (run, check, converge, advise, "
-            "materials, schema)",
+            "materials, curve, schema)",
         ),
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),
