@@ -56,8 +56,9 @@ class Snow(Elastic):
     @staticmethod
     @ti.func
     def hardness(c, s):
-        """Factor of the Lame parameters [-]."""
-        return 1.0 + exp_less_one(ti.min(-c.hardening * s.plastic_volume, c.capped_at))
+        """Factor of the Lame parameters [-]; not below exp(-80), nothing, where J_P is large."""
+        power = ti.min(-c.hardening * s.plastic_volume, c.capped_at)
+        return 1.0 + exp_less_one(ti.max(power, -80.0))
 
     @staticmethod
     @ti.func

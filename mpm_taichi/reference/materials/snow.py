@@ -15,7 +15,7 @@ class Snow(MaterialLaw):
 
     @staticmethod
     def hardness(c, s):
-        return 1 + exp_less_one(min(-c.hardening * s.plastic_volume, c.capped_at))
+        return 1 + exp_less_one(max(min(-c.hardening * s.plastic_volume, c.capped_at), -80.0))
 
     @staticmethod
     def energy_of(c, x, factor):
