@@ -12,25 +12,26 @@ class Fluid(MaterialLaw):
 
     @staticmethod
     def pressure(c, strain):
-        p = c.bulk_modulus / c.exponent * exp_less_one(-c.exponent * log_volume_ratio(strain))
-        return max(p, -c.tension), p < -c.tension
+        return c.bulk_modulus / c.exponent * exp_less_one(-c.exponent * log_volume_ratio(strain))
 
     @staticmethod
     def update(c, H, L, dt, s):
         one, strain = np.eye(len(H)), volume_strain(H)
-        p, is_cut = Fluid.pressure(c, strain)
-        s.cut_off = s.cut_off + float(is_cut)
+        if strain > c.torn:
+            s.cut_off = s.cut_off + 1
+            s.dissipated = s.dissipated + c.tension * (strain - c.torn)
+            strain = c.torn
         slower = L.trace() / 3
         D = 0.5 * (L + L.T) - slower * one
         squares = (D**2).sum() + (slower**2 if len(H) == 2 else 0.0)
         s.dissipated = s.dissipated + dt * 2 * c.viscosity * (1 + strain) * squares
-        tau = 2 * c.viscosity * (1 + strain) * D - (1 + strain) * p * one
+        tau = 2 * c.viscosity * (1 + strain) * D - (1 + strain) * Fluid.pressure(c, strain) * one
         return isotropic(H, strain), s, tau
 
     @staticmethod
     def energy_density(c, H, s):
         """int p d(-J) from J = 1."""
-        strain = min(volume_strain(H), c.torn)
+        strain = volume_strain(H)
         series = 1.0
         for k in range(9, 2, -1):
             series = 1 - strain * (c.exponent + k - 2) / k * series
@@ -38,7 +39,7 @@ class Fluid(MaterialLaw):
         if abs(strain) > 0.02:
             power = exp_less_one((1 - c.exponent) * log_volume_ratio(strain))
             stored = (power / (c.exponent - 1) + strain) / c.exponent
-        return c.bulk_modulus * stored + c.tension * (volume_strain(H) - strain)
+        return c.bulk_modulus * stored
 
     @staticmethod
     def dissipated_energy(c, H, s):
@@ -48,7 +49,7 @@ class Fluid(MaterialLaw):
     def out_of_plane_stress(c, H, s):
         """Of the pressure."""
         strain = volume_strain(H)
-        return -(1 + strain) * Fluid.pressure(c, strain)[0]
+        return -(1 + strain) * Fluid.pressure(c, strain)
 
 
 def isotropic(H, strain):
