@@ -15,9 +15,9 @@ from .law import MaterialLaw
 class Fluid(MaterialLaw):
     """p = K / gamma (J^-gamma - 1), at least - p_t;  tau = J (- p I + 2 eta dev sym L).
 
-    J follows det(I + dt L) up to where p = - p_t.  There the fluid tears: J leaves out the gaps that
-    open, and what closes them meets pressure at once.  Remembered, they would grow in spray without
-    bound (J = 100) and swallow water when it falls back: an eighth of a dam break in 3 s.
+    J follows det(I + dt L) up to where p = - p_t.  There the fluid tears: J leaves out the gaps
+    that open, and what closes them meets pressure at once.  Remembered, they would grow in spray
+    without bound (J = 100) and swallow water when it falls back: an eighth of a dam break in 3 s.
 
     F is kept as J^(1/dim) I, so that shear leaves no trace.  The viscous stress is that of the rate
     L, whatever dt is.  K is the bulk modulus and sqrt(K / rho) the speed of sound; a tenth of the

@@ -1,4 +1,4 @@
-"""The dam break against the measured fronts of Martin and Moyce (1952) and Koshizuka and Oka (1996).
+"""The dam break against the fronts that Martin and Moyce (1952) and Koshizuka and Oka (1996) saw.
 
 Z = front / a over T = t sqrt(2 g / a); the front of a run is its largest x plus half the spacing of
 the particles.  The clocks of the experiments do not start with the motion: each is moved so that
