@@ -1,6 +1,7 @@
 """Single elements: a law along given deformations, and the command `curve` that draws it."""
 
 import csv
+import sys
 
 import numpy as np
 import pytest
@@ -218,3 +219,10 @@ def test_a_scene_of_several_materials(tmp_path):
         material_of(str(path), [])
     assert str(caught.value) == f"{path}: there are 2 materials: say {path}:rubber or {path}:soft"
     assert material_of(f"{path}:soft", [])[0].type == "neo_hookean"
+
+
+def test_without_matplotlib(monkeypatch, capfd):
+    """What installs it, before anything is computed."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert cli.main(["curve", "snow"]) == 2
+    assert 'pip install "matplotlib>=3.8"' in capfd.readouterr().err
