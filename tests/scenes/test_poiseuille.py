@@ -74,6 +74,5 @@ def test_flow_starts_as_the_series(method):
 @pytest.mark.parametrize("transfer", ["{type: pic}", "{type: flip, ratio: 0.99}"])
 def test_averaging_in_each_step_is_a_viscosity(transfer):
     """Expected failure: with half the step there is twice as much of it."""
-    error, change = of_half_the_step(f"{{basis: quadratic, transfer: {transfer}}}")
-    assert error > 0.02
+    _, change = of_half_the_step(f"{{basis: quadratic, transfer: {transfer}}}")
     assert change > 0.01
