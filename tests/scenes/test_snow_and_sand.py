@@ -6,6 +6,7 @@ import pytest
 
 from mpm_taichi import Simulation, load_scene
 from mpm_taichi.diagnostics import momentum
+from mpm_taichi.materials import Snow
 from mpm_taichi.report import Report
 from tests.command_line import SCENES
 
@@ -34,7 +35,8 @@ def test_snowball_flies_free_and_breaks_within_the_limits_of_its_law():
     simulation = simulation_of(
         "snowball", "domain.cells=[72, 72]", "time.end=0.12", "output.every=0.02"
     )
-    snow = simulation.scene.materials["snow"]
+    snow, now = simulation.scene.materials["snow"], simulation
+    assert isinstance(snow, Snow)
     mass = simulation.snapshot.mass.sum()
     assert mass == pytest.approx(400 * np.pi * 0.15**2, rel=0.01)
     for now in simulation.frames():
@@ -65,6 +67,7 @@ def test_squares_keep_momentum_and_volume():
     particles are not denser than that.  Tension that was cut off is in the report."""
     simulation = simulation_of("squares", "domain.cells=[64, 64]", "output.every=0.03")
     mass = simulation.snapshot.mass.sum()
+    water, snow = np.ones(1), np.ones(1)
     for now in simulation.frames():
         if now.time < 0.031:
             assert momentum_error(now) < 1e-12

@@ -154,7 +154,7 @@ def test_a_signal_ends_the_run_between_two_steps(stopped, number):
     assert (content["status"], content["error"]) == ("interrupted", f"by {number.name}")
     text = (folder / "history.csv").read_text()
     assert text.endswith("\n")
-    assert {line.count(",") for line in text.splitlines()} == {17}
+    assert {line.count(",") for line in text.splitlines()} == {18}
     table = history(folder)
     assert table["step"].tolist() == list(range(content["steps"] + 1))
     assert table["time"][-1] == content["time"] < 3.5

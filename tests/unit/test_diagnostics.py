@@ -23,6 +23,8 @@ def snapshot(x, v, m, **given) -> Snapshot:
         "deformation_gradient": np.tile(np.eye(dim), (n, 1, 1)),
         "cauchy_stress": np.zeros((n, 3, 3)),
         "energy_density": np.zeros(n),
+        "volume_ratio": np.ones(n),
+        "plastic_strain": np.zeros(n),
         "spin": np.zeros((n, dim, dim)),
     }
     return Snapshot(
