@@ -77,7 +77,9 @@ class DruckerPrager(Flowing):
             volume, part, flows = 0.0, 0.0, True
         elif size > largest or closing > 0.0:
             s.opened -= closing
-            part, flows = ti.min(1.0, largest / size), True
+            flows = True
+            if size > largest:
+                part = largest / size
             s.plastic_strain += ti.static(sqrt(2 / 3)) * (1.0 - part) * size
         if flows:
             s.dissipated += Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)

@@ -37,7 +37,6 @@ class Snow(Elastic):
             "least": -self.critical_compression,
             "most": self.critical_stretch,
             "hardening": self.hardening,
-            "cap": self.largest_hardening,
             "capped_at": log(self.largest_hardening),
         }
 

@@ -126,7 +126,7 @@ SMALL = 0.1
 
 
 def exponents():
-    return range(1, 1 + (8 if real_type() is np.float32 else 16))
+    return range(1, 1 + (8 if real_type() == np.float32 else 16))
 
 
 def of_logarithm():

@@ -23,7 +23,7 @@ class DruckerPrager(Flowing):
             volume, part, flows = 0.0, 0.0, True
         elif size > largest or closing > 0:
             s.opened = s.opened - closing
-            part, flows = min(1.0, largest / size), True
+            part, flows = largest / size if size > largest else 1.0, True
             s.plastic_strain = s.plastic_strain + np.sqrt(2 / 3) * (1 - part) * size
         if flows:
             lost = Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
