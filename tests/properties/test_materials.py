@@ -45,8 +45,14 @@ each_precision = pytest.mark.parametrize("precision", PRECISIONS)
 each_dim = pytest.mark.parametrize("dim", [2, 3])
 
 
+def together(law):
+    """One worker for all tests of a law, which it compiles once."""
+    return pytest.mark.xdist_group(law)
+
+
 def each(laws):
-    return pytest.mark.parametrize("material", laws, ids=lambda law: law.type)
+    rows = [pytest.param(law, id=law.type, marks=together(law.type)) for law in laws]
+    return pytest.mark.parametrize("material", rows)
 
 
 def walks(rng, steps, n, dim, size):
@@ -183,6 +189,7 @@ def test_on_or_below_the_yield_surface(rng, material, dim, precision, bound):
     assert work.min() >= -bound * found.lost.max() and (work > 0).mean() > 0.2
 
 
+@together("snow")
 @each_precision
 @each_dim
 def test_stretches_of_snow_are_clamped(rng, dim, precision):
@@ -241,6 +248,7 @@ def test_twin_gives_the_same(exact, rng, material, dim):
         assert np.abs(ours[name] - values).max() <= 1e-12 * np.abs(values).max(), name
 
 
+@together("fluid")
 def test_extension_beyond_yield(exact, rng):
     """Extension e = (a, -a, 0) at constant volume, in one step or in many: tau_1 - tau_3 by hand,
     q = sqrt(3) tau_1 = Y + h k with 2 sqrt(3) mu (a - sqrt(3)/2 k) = sqrt(3) tau_1."""
@@ -256,6 +264,7 @@ def test_extension_beyond_yield(exact, rng):
         assert np.sqrt(3) * found.tau[-1, 0, 0, 0] == pytest.approx(Y + h * k, rel=1e-12)
 
 
+@together("drucker_prager")
 @pytest.mark.parametrize("corrected", [True, False])
 def test_opened_sand_has_to_close(exact, corrected):
     """Cohesionless sand opened by 10 % and closed by 5 and by 11 %: with the volume correction the
@@ -274,6 +283,7 @@ def test_opened_sand_has_to_close(exact, corrected):
     assert found.J[:, 0] == pytest.approx(J, rel=1e-12)
 
 
+@together("drucker_prager")
 def test_cohesion_and_cones(exact):
     """Both cones give Mohr-Coulomb's (s1 - s3) / 2 = C cos phi - (s1 + s3) / 2 sin phi: the one in
     triaxial compression, the other where its normal has no component across the plane, dev s ~ (b +
@@ -296,6 +306,7 @@ def test_cohesion_and_cones(exact):
         assert shear == pytest.approx(C * np.cos(phi) + mean * np.sin(phi), rel=1e-9), cone
 
 
+@together("fluid")
 def test_viscosity_does_not_depend_on_the_step(exact, rng):
     """Simple shear at a rate g: tau_xy = eta g at every dt, and eta g^2 t is lost."""
     fluid, g = VISCOUS[0], rng.uniform(1, 2)
@@ -307,6 +318,7 @@ def test_viscosity_does_not_depend_on_the_step(exact, rng):
         assert found.lost[-1, 0] == pytest.approx(fluid.viscosity * g**2 * 2 * dt, rel=1e-9)
 
 
+@together("fluid")
 def test_a_fluid_tears_at_its_tension(exact):
     """Stretched by 1 % in each of 5 steps, K / gamma (J^-gamma - 1) would fall below - p_t in the
     second one: four are counted, J stays where the pressure is - p_t, and what opened further took
@@ -322,6 +334,7 @@ def test_a_fluid_tears_at_its_tension(exact):
     assert found.lost[-1, 0] == pytest.approx(fluid.tension * (1.01**2 - J + 0.03 * J), rel=1e-9)
 
 
+@together("gas")
 def test_gas_without_heat(exact, rng):
     """Without artificial viscosity p J^gamma stays, whatever the steps."""
     L = 0.1 * rng.normal(size=(9, 20, 3, 3))
@@ -331,6 +344,7 @@ def test_gas_without_heat(exact, rng):
     assert p * found.J**gas.heat_ratio == pytest.approx(gas.pressure, rel=1e-12)
 
 
+@together("gas")
 def test_artificial_viscosity_heats(exact):
     """Compressed at a rate D, a gas pushes back with q = rho dx (c0 dx D^2 - c1 a D) more, and its
     energy grows by the work of q; expanding it has none."""
