@@ -14,7 +14,7 @@ MEMORY_AND_THREADS = {
 }
 """Modules about memory, threads and launches: the twin has none."""
 
-STATED_IN_SCENES = {"materials/elastic.py"}
+STATED_IN_SCENES = {"materials/elastic.py", "materials/presets.py"}
 """Parameters that scenes give: the twin takes them from the scene's models."""
 
 MODULES = [
