@@ -29,7 +29,7 @@ FIRST = [(Linear, FLIP), (QuadraticBSpline, MLS)]
 KINDS = [(QuadraticBSpline, XPIC), (QuadraticBSpline, APIC), (GIMP, TPIC), (CubicBoundary, TPIC)]
 LIKE_OTHERS = [
     (QuadraticBSpline, PIC), (QuadraticBSpline, FLIP), (QuadraticBSpline, FLIPBlend),
-    (QuadraticBSpline, TPIC), (QuadraticBoundary, TPIC), (Linear, TPIC),
+    (QuadraticBSpline, TPIC), (QuadraticBoundary, TPIC), (CubicBoundary, TPIC), (Linear, TPIC),
 ]  # fmt: skip
 """In 3D these differ from others of the suite in one part that does not depend on dimension."""
 PAIRS = [(basis, transfer) for basis in BASES for transfer in TRANSFERS if works(basis, transfer)]
