@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import taichi as ti
 
+from mpm_taichi import runtime
 from mpm_taichi.kernels.follow import follow
 from mpm_taichi.materials import (
     DruckerPrager,
@@ -50,15 +51,16 @@ ROOM = 384
 DX = 0.1
 
 
-def response(material, F):
+def response(material, F, precision="f64"):
     """What `followed` has after one step from I to F [n, dim, dim], without a step of time."""
-    found = followed(material, (F - np.eye(F.shape[1]))[None])
+    found = followed(material, (F - np.eye(F.shape[1]))[None], precision=precision)
     return SimpleNamespace(**{name: values[0] for name, values in vars(found).items()})
 
 
-def followed(material, rates, dt=1.0):
+def followed(material, rates, dt=1.0, precision="f64"):
     """What `follow` gives for velocity gradients [steps, n, dim, dim] from a fresh state, and the
-    counts of the law."""
+    counts of the law.  Taichi starts anew: its cache knows kernels by the fields made before."""
+    runtime.start("cpu", precision, threads=2, fast_math=False)
     steps, n, dim = rates.shape[:3]
     (group,) = groups_of([material], dim, DX, [np.zeros((ROOM, dim, dim))])
     room = np.zeros((steps, ROOM, dim, dim), ti.field(float, ()).to_numpy().dtype)
