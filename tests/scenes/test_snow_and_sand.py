@@ -112,20 +112,19 @@ def test_castle_stands_by_cohesion():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_bay_keeps_mass_and_volume_and_only_loses_energy():
-    """Water, sand and jelly in 3D on cells twice as large: mass exact, jelly within 20 % of its
-    volume, water never below 0.9; kinetic, stored, gravitational and dissipated energy add up to
-    less and less, but for 1 % of what gravity can give (an output may fall on a swing)."""
-    simulation = simulation_of(
-        "bay", "domain.cells=[24, 12, 12]", "time.end=0.5", "output.every=0.1"
-    )
+    """Water, sand and jelly in 3D: mass exact, J of jelly within [0.3, 3], water never below 0.9;
+    kinetic, stored, gravitational and dissipated energy add up to less and less, but for 1 % of
+    what gravity can give (an output may fall on a swing)."""
+    simulation = simulation_of("bay", "output.every=0.1")
     mass, g, totals = simulation.snapshot.mass.sum(), 9.81, []
     water = jelly = np.ones(0)
     for now in simulation.frames():
         assert now.snapshot.mass.sum() == mass
         water, _sand, jelly = np.split(now.snapshot.volume_ratio, now.ranges[1:-1])
         assert water.min() > 0.9
-        assert 0.8 < jelly.min() <= jelly.max() < 1.2
+        assert 0.3 < jelly.min() <= jelly.max() < 3
         kinds = ("kinetic", "elastic", "dissipated")
         energy = sum(now.sums[f"{kind}_energy"].sum() for kind in kinds)
         totals.append(energy + g * now.sums["mass_moment"].sum(axis=0)[1])
