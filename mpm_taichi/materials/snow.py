@@ -73,7 +73,7 @@ class Snow(Elastic):
         if A.norm_sqr() < SMALL**2:
             stretch = powers(A, ti.static(of_square_root()))  # of F = V R, V - I
             is_elastic = is_above(stretch, c.least) and is_above(-stretch, -c.most)
-        D = A - stretch  # V^2 - V
+        D, factor = A - stretch, Snow.hardness(c, s)  # V^2 - V
         if not is_elastic:
             squares, axes = eigen(A)
             x, y, growth = squares, squares, squares
@@ -81,17 +81,18 @@ class Snow(Elastic):
                 x[d] = squares[d] / (1.0 + ti.sqrt(1.0 + squares[d]))
                 y[d] = ti.min(ti.max(x[d], c.least), c.most)
                 growth[d] = (y[d] - x[d]) / (1.0 + x[d])
-            s.dissipated += Snow.energy_of(c, x, Snow.hardness(c, s))
+            s.dissipated += Snow.energy_of(c, x, factor)
             G, kept = assembled(growth, axes), volume_of(y)
             H += G + G @ H
             s.plastic_volume = compound(s.plastic_volume, (volume_of(x) - kept) / (1.0 + kept))
-            s.dissipated -= Snow.energy_of(c, y, Snow.hardness(c, s))
+            factor = Snow.hardness(c, s)
+            s.dissipated -= Snow.energy_of(c, y, factor)
             D = assembled(y + y * y, axes)
         s.capped += ti.select(-c.hardening * s.plastic_volume > c.capped_at, 1.0, 0.0)
         tau, strain = 2.0 * c.mu * D, volume_strain(H)
         for d in ti.static(range(H.n)):
             tau[d, d] += c.lam * strain * (1.0 + strain)
-        return H, s, Snow.hardness(c, s) * tau
+        return H, s, factor * tau
 
     @staticmethod
     @ti.func
