@@ -22,9 +22,8 @@ class DruckerPrager(Flowing):
     The cone meets the Mohr-Coulomb pyramid with cohesion C in triaxial compression or where sand
     that dilates by the cone's own normal would flow in plane strain:
 
-        compression   A = 2 sqrt(6) sin phi / (3 - sin phi),   B = 2 sqrt(6) C cos phi / (3 - sin phi)
-        plane_strain  A = 3 sqrt(2) tan phi / n,   B = 3 sqrt(2) C / n,   n = sqrt(9 + 12 tan^2 phi)
-    """  # noqa: E501
+        compression   A = m sin phi,   B = m C cos phi,   m = 2 sqrt(6) / (3 - sin phi)
+        plane_strain  A = m tan phi,   B = m C,   m = 3 sqrt(2) / sqrt(9 + 12 tan^2 phi)"""
 
     type: Literal["drucker_prager"]
     friction_angle: float = Field(ge=0, lt=90, description="of internal friction, phi [degrees]")

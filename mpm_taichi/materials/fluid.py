@@ -8,7 +8,7 @@ import taichi as ti
 from pydantic import Field
 
 from ..model import Positive
-from .invariants import exp_less_one, log_volume_ratio, volume_strain
+from .invariants import exp_less_one, isotropic, log_volume_ratio, volume_strain
 from .law import MaterialLaw
 
 
@@ -110,10 +110,3 @@ class Fluid(MaterialLaw):
         """Of the pressure."""
         strain = volume_strain(H)
         return -(1.0 + strain) * Fluid.pressure(c, strain)
-
-
-@ti.func
-def isotropic(H, strain):
-    """H of F = (1 + strain)^(1/dim) I."""
-    stretch = exp_less_one(log_volume_ratio(strain) / H.n)
-    return stretch * ti.Matrix.identity(float, H.n)

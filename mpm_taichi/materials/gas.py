@@ -9,8 +9,7 @@ import taichi as ti
 from pydantic import Field
 
 from ..model import Positive
-from .fluid import isotropic
-from .invariants import exp_less_one, log_volume_ratio, volume_strain
+from .invariants import exp_less_one, isotropic, log_volume_ratio, volume_strain
 from .law import MaterialLaw
 
 

@@ -60,3 +60,10 @@ def exp_less_one(y):
         e *= 2.0 + e
         halvings -= 1
     return e
+
+
+@ti.func
+def isotropic(H, strain):
+    """H of F = (1 + strain)^(1/dim) I."""
+    stretch = exp_less_one(log_volume_ratio(strain) / H.n)
+    return stretch * ti.Matrix.identity(float, H.n)

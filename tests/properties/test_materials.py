@@ -106,10 +106,8 @@ def test_objective_and_isotropic(rng, material, dim, precision):
 def test_turning_changes_nothing(rng, material, dim):
     """Deformed once, then turned by random rotations: the stress turns along, nothing flows and
     nothing is lost; after 50 turns rounding errors of 1e-13 each."""
-    F0, Q = (
-        deformations(rng, 20, dim, 1.0, 0.3),
-        rotations(rng, 1000, dim).reshape(50, 20, dim, dim),
-    )
+    F0 = deformations(rng, 20, dim, 1.0, 0.3)
+    Q = rotations(rng, 1000, dim).reshape(50, 20, dim, dim)
     found = followed(material, rates_of(np.concatenate([F0[None], Q @ F0])))
     tau = Q @ found.tau[0] @ Q.swapaxes(2, 3)
     assert np.abs(found.tau[1:] - tau).max() < 1e-11 * np.abs(tau).max()

@@ -3,7 +3,7 @@ mpm_taichi/materials/fluid.py for the sources."""
 
 import numpy as np
 
-from .invariants import exp_less_one, log_volume_ratio, volume_strain
+from .invariants import exp_less_one, isotropic, log_volume_ratio, volume_strain
 from .law import MaterialLaw
 
 
@@ -50,8 +50,3 @@ class Fluid(MaterialLaw):
         """Of the pressure."""
         strain = volume_strain(H)
         return -(1 + strain) * Fluid.pressure(c, strain)
-
-
-def isotropic(H, strain):
-    """H of F = (1 + strain)^(1/dim) I."""
-    return exp_less_one(log_volume_ratio(strain) / len(H)) * np.eye(len(H))

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from .fluid import isotropic
-from .invariants import exp_less_one, log_volume_ratio, volume_strain
+from .invariants import exp_less_one, isotropic, log_volume_ratio, volume_strain
 from .law import MaterialLaw
 
 

@@ -23,3 +23,8 @@ def log_volume_ratio(strain):
 def exp_less_one(y):
     """exp(y) - 1."""
     return np.expm1(y)
+
+
+def isotropic(H, strain):
+    """H of F = (1 + strain)^(1/dim) I."""
+    return exp_less_one(log_volume_ratio(strain) / len(H)) * np.eye(len(H))
