@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from mpm_taichi import cli, load_scene, report, run_folder
+from mpm_taichi.commands import run as run_command
 from mpm_taichi.recorders import History
 from mpm_taichi.run import Interrupted, Interruption
 from tests.command_line import SCENES, environment, history, mpm_taichi
@@ -178,7 +179,7 @@ def test_a_second_signal_acts_at_once():
 
 def test_ctrl_c_before_the_run(monkeypatch):
     """While a scene is read or meshed there is nothing to save: exit code 130."""
-    monkeypatch.setattr(cli, "_dispatch", lambda options: signal.raise_signal(signal.SIGINT))
+    monkeypatch.setattr(run_command, "execute", lambda options: signal.raise_signal(signal.SIGINT))
     assert cli.main([str(LATTICE)]) == 130
 
 

@@ -1,0 +1,14 @@
+"""What `python -m mpm_taichi` can do, in the order of its help.  A command is a module of its name:
+
+- the first paragraph of its docstring    the help
+- `add(parser)`                           its arguments
+- `execute(options) -> int`               does it; returns the exit code
+
+Modules import at their top only what takes no time."""
+
+from . import advise, check, converge, curve, materials, run, schema
+
+COMMANDS = {
+    module.__name__.rpartition(".")[2]: module
+    for module in (run, check, converge, advise, materials, curve, schema)
+}
