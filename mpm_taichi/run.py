@@ -11,8 +11,10 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from . import run_folder
+from .disk_space import describe, planned_disk, refuse_full_disk
 from .errors import RunError
-from .recorders import Errors, History, Images
+from .recorders import Errors, History, Images, Snapshots
+from .recorders.snapshots import wants_snapshots
 from .report import Report
 from .scene import dump_scene
 from .simulation import Simulation
@@ -34,6 +36,7 @@ def run(scene, name, options, console: Console) -> int:
     run_folder.refuse(options.output, options.overwrite)
     simulation = Simulation(scene, options.device, options.precision, options.threads)
     announce(simulation, console)
+    refuse_full_disk(planned_disk(simulation), options.output or Path("runs"))
     folder = run_folder.create(name, options.output, options.overwrite)
     report, history, errors = Report(simulation, sys.argv[1:]), None, None
     status, error, code = "done", None, 0
@@ -52,6 +55,9 @@ def run(scene, name, options, console: Console) -> int:
                 console.print(errors.exact.describe(), soft_wrap=True)
             if scene.output.images != "none":
                 recorders.append(Images(folder / "frames", simulation, scene.output.images))
+                stack.callback(recorders[-1].close)
+            if wants_snapshots(scene, simulation.ranges[-1]):
+                recorders.append(Snapshots(folder / "snapshots", simulation))
                 stack.callback(recorders[-1].close)
             recorders.append(stack.enter_context(Interruption()))
             recorders.append(stack.enter_context(Progressing(console, began)))
@@ -88,6 +94,9 @@ def check(scene, options, console: Console) -> int:
     simulation = Simulation(scene, options.device, options.precision, options.threads)
     announce(simulation, console)
     console.print(simulation.memory.describe(), soft_wrap=True)
+    disk = planned_disk(simulation)
+    console.print(describe(disk), soft_wrap=True)
+    refuse_full_disk(disk, Path("runs"))
     steps = scene.time.end / simulation.dt
     console.print(
         f"about {steps:.0f} steps to t = {scene.time.end:g} s, {simulation.outputs.count} outputs "

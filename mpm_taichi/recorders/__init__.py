@@ -8,5 +8,6 @@
 from .errors import Errors
 from .history import History
 from .images import Images
+from .snapshots import Snapshots
 
-__all__ = ["Errors", "History", "Images"]
+__all__ = ["Errors", "History", "Images", "Snapshots"]

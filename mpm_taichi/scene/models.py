@@ -212,6 +212,11 @@ class Output(Model):
     )
     images: Images | Literal["none"] = Field(default=Images(), description="pictures, or none")
     history: History = Field(default=History(), description="table of energies and momenta")
+    snapshots: bool | None = Field(
+        default=None,
+        description="particles of each output in a file, for player, films and analysis; default: "
+        "up to 200,000 particles",
+    )
 
 
 class Scene(Model):
