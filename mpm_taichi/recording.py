@@ -5,6 +5,7 @@ for frame in recording:
     print(frame.time, frame.scalars["speed"].max())"""
 
 import zipfile
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -77,6 +78,9 @@ class Recording:
         return RecordedFrame(
             float(time), int(step), position, velocity, self.mass, {"speed": speed, **arrays}
         )
+
+    def __iter__(self) -> Iterator[RecordedFrame]:
+        return (self[number] for number in range(len(self)))
 
     @cached_property
     def times(self) -> np.ndarray:
