@@ -26,6 +26,7 @@ RUN = Contents(
     (
         "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png",
         "snapshots/snapshot_*.npz", "snapshots/particles.npz", "snapshots/*.npz.part",
+        "video.mp4", "video.gif", "video.webp",
     ),
 )  # fmt: skip
 STUDY = Contents(

@@ -234,7 +234,7 @@ def test_a_run_imports_only_what_it_needs(watched):
     assert {"gmsh", "meshio", "PIL", "matplotlib"}.isdisjoint(loaded)
     assert not any(name.startswith("mpm_taichi.renderers") for name in loaded)
     assert sorted(path.name for path in watched["folder"].iterdir()) == [
-        "history.csv", "run.json", "scene.yaml",
+        "history.csv", "run.json", "scene.yaml", "snapshots",
     ]  # fmt: skip
 
 
