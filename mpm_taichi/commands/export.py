@@ -1,4 +1,4 @@
-"""Turn a run into something to share: a video."""
+"""Turn a run into something to share: a video, files for ParaView."""
 
 import argparse
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from ..errors import InputError
 from .arguments import number
 
-KINDS = ("mp4", "gif", "webp")
+KINDS = ("mp4", "gif", "webp", "vtk")
 """The flags, each of which makes something."""
 
 HERE = Path()
@@ -22,6 +22,10 @@ def add(parser) -> None:
     ):
         _add_file(parser, kind, f"{text}; default: RUN/video.{kind}")
     parser.add_argument(
+        "--vtk", action="store_true",
+        help="the recorded particles for ParaView: RUN/paraview/particles.pvd",
+    )  # fmt: skip
+    parser.add_argument(
         "--fps", type=_fps, default=25.0, metavar="F", help="pictures a second; default: 25"
     )
     parser.add_argument("--overwrite", action="store_true", help="replace files that are there")
@@ -36,6 +40,10 @@ def execute(options) -> int:
 
             file = _file(options, kind, f"video.{kind}")
             export_video(options.folder, file, options.fps, options.overwrite)
+    if options.vtk:
+        from ..exports.vtk import export_vtk
+
+        export_vtk(options.folder, options.overwrite)
     return 0
 
 
