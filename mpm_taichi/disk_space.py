@@ -5,6 +5,7 @@ from pathlib import Path
 
 from .errors import InputError
 from .memory import size
+from .recorders.paraview import paraview_bytes
 from .recorders.snapshots import snapshot_bytes, wants_snapshots
 
 SPARE = 100 * 2**20
@@ -18,6 +19,8 @@ def planned_disk(simulation) -> dict[str, int]:
     found = {}
     if wants_snapshots(scene, count):
         found["snapshots"] = outputs * snapshot_bytes(scene, count) + 9 * count
+    if scene.output.paraview:
+        found["paraview"] = outputs * paraview_bytes(scene, count)
     return found
 
 

@@ -13,7 +13,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from . import run_folder
 from .disk_space import describe, planned_disk, refuse_full_disk
 from .errors import RunError
-from .recorders import Errors, History, Images, Snapshots
+from .recorders import Errors, History, Images, ParaView, Snapshots
 from .recorders.snapshots import wants_snapshots
 from .report import Report
 from .scene import dump_scene
@@ -58,6 +58,10 @@ def run(scene, name, options, console: Console) -> int:
                 stack.callback(recorders[-1].close)
             if wants_snapshots(scene, simulation.ranges[-1]):
                 recorders.append(Snapshots(folder / "snapshots", simulation))
+                stack.callback(recorders[-1].close)
+            if scene.output.paraview:
+                with_grid = getattr(scene.output.paraview, "grid", False)
+                recorders.append(ParaView(folder / "paraview", simulation, with_grid))
                 stack.callback(recorders[-1].close)
             recorders.append(stack.enter_context(Interruption()))
             recorders.append(stack.enter_context(Progressing(console, began)))

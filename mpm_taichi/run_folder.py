@@ -26,6 +26,8 @@ RUN = Contents(
     (
         "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png",
         "snapshots/snapshot_*.npz", "snapshots/particles.npz", "snapshots/*.npz.part",
+        "paraview/particles_*.vtp", "paraview/grid_*.vti", "paraview/particles.pvd",
+        "paraview/grid.pvd", "paraview/*.part", "video.mp4", "video.gif", "video.webp",
     ),
 )  # fmt: skip
 STUDY = Contents(

@@ -8,6 +8,7 @@
 from .errors import Errors
 from .history import History
 from .images import Images
+from .paraview import ParaView
 from .snapshots import Snapshots
 
-__all__ = ["Errors", "History", "Images", "Snapshots"]
+__all__ = ["Errors", "History", "Images", "ParaView", "Snapshots"]
