@@ -1,12 +1,12 @@
-"""Turn a run into something to share: a video, files for ParaView."""
+"""Turn a run into something to share: a page that plays it, a video, files for ParaView."""
 
 import argparse
 from pathlib import Path
 
 from ..errors import InputError
-from .arguments import number
+from .arguments import number, positive
 
-KINDS = ("mp4", "gif", "webp", "vtk")
+KINDS = ("html", "mp4", "gif", "webp", "vtk")
 """The flags, each of which makes something."""
 
 HERE = Path()
@@ -15,6 +15,13 @@ HERE = Path()
 
 def add(parser) -> None:
     parser.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
+    _add_file(
+        parser, "html",
+        "the recorded particles as a page that plays them in a browser; default: RUN/player.html",
+    )  # fmt: skip
+    parser.add_argument(
+        "--every", type=positive, metavar="K", help="--html with each K-th frame; default: all"
+    )
     for kind, text in (
         ("mp4", "the pictures of the run as a video"),
         ("gif", "the pictures as a GIF of 256 colors"),
@@ -34,6 +41,13 @@ def add(parser) -> None:
 def execute(options) -> int:
     if not any(getattr(options, kind) for kind in KINDS):
         raise InputError(f"export: into what? {', '.join(f'--{kind}' for kind in KINDS)}")
+    if options.every is not None and not options.html:
+        raise InputError("--every: says how many frames --html takes; there is no --html")
+    if options.html:
+        from ..exports.player import export_player
+
+        file = _file(options, "html", "player.html")
+        export_player(options.folder, file, options.every or 1, options.overwrite)
     for kind in ("mp4", "gif", "webp"):
         if getattr(options, kind):
             from ..exports.video import export_video

@@ -102,7 +102,8 @@ class Film:
             frames = [self.quantized(self.recording[k]) for k in self.numbers[start:end]]
             for frame in frames:
                 for q in frame:
-                    self.checksum = zlib.crc32(q.astype(q.dtype.newbyteorder("<")), self.checksum)
+                    little = q.astype(q.dtype.newbyteorder("<"))
+                    self.checksum = zlib.crc32(little.tobytes(), self.checksum)
             yield packer.pack([np.stack(q) for q in zip(*frames, strict=True)])
 
     def particle_bytes(self) -> bytes:
