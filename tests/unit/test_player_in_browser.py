@@ -66,7 +66,7 @@ class Shown:
         return self.page.evaluate(f"async () => {expression}")
 
     def until(self, condition: str):
-        """Within ten seconds.  Playwright's own way to wait is not within the policy of the page."""
+        """Within ten seconds; Playwright's own way to wait is against the policy of the page."""
         for _ in range(500):
             if self.ask(condition):
                 return
@@ -314,7 +314,7 @@ def test_pan_zoom_and_touch(two_d):
     page.mouse.down()
     page.mouse.move(x + 40, y - 30, steps=4)
     page.mouse.up()
-    assert shown.ask(look) == pytest.approx(home + [40, -30])
+    assert shown.ask(look) == pytest.approx(home + np.array([40, -30]))
     page.mouse.dblclick(x, y)
     assert shown.ask(look) == pytest.approx(home)
     page.mouse.move(x, y)

@@ -51,13 +51,14 @@ class Film {
     return low;
   }
 
-  /** Positions [m] of a frame into an array [n, 3]; z is 0 in 2D. */
-  positions(k, out) {
+  /** Positions and radii of a frame into an array [n, 4], in m; z is 0 in 2D. */
+  places(k, out) {
     const n = this.particles;
     this.coordinates.forEach((channel, axis) => {
       const low = this.low[axis], step = this.step[axis];
-      for (let p = 0, q = k * n, i = axis; p < n; p++, q++, i += 3) out[i] = low + step * channel[q];
+      for (let p = 0, q = k * n, i = axis; p < n; p++, q++, i += 4) out[i] = low + step * channel[q];
     });
+    for (let p = 0; p < n; p++) out[4 * p + 3] = this.radius[p];
     return out;
   }
 

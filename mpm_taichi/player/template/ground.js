@@ -1,7 +1,8 @@
 // What lies under and over the particles: the domain, its grid with the numbers of the cells, its
 // walls; the scale bar and the picked particle.
 
-const FINEST_CELL = 4;  // pixels; lines of a finer grid are left out, and fade in up to twice as many
+const FINEST = 7;  // pixels between two lines; of a finer grid each second, fifth, tenth ... is drawn
+const ROUND = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const ROOMY = 44, SMALL = 11;  // pixels: a cell that holds its numbers, their size
 
 class Ground {
@@ -25,11 +26,12 @@ class Ground {
     pen.fill();
     pen.strokeStyle = colors.line;
     pen.lineWidth = 1;
-    pen.globalAlpha = opacity * this.fading(camera);
-    if (pen.globalAlpha > 0) {
+    pen.globalAlpha = opacity;
+    if (opacity > 0) {
       pen.beginPath();
       this.plane.forEach((axis, which) => {
-        for (let i = 1; i < this.cells[axis]; i++) {
+        const every = ROUND.find(k => k * this.pixels(camera, axis) >= FINEST) ?? Infinity;
+        for (let i = every; i < this.cells[axis]; i += every) {
           const at = i * this.size[axis] / this.cells[axis];
           const ends = which == 0 ? [[at, 0], [at, along]] : [[0, at], [across, at]];
           this.line(pen, camera, ...ends.map(end => this.at(...end)));
@@ -52,10 +54,9 @@ class Ground {
     this.drawScaleBar(pen, camera);
   }
 
-  /** From 0 where cells are too small to be seen to 1. */
-  fading(camera) {
-    const finest = Math.min(...this.plane.map(axis => camera.scale * this.size[axis] / this.cells[axis]));
-    return Math.min(Math.max(finest / FINEST_CELL - 1, 0), 1);
+  /** Width of a cell in the middle of the picture. */
+  pixels(camera, axis) {
+    return camera.scale * this.size[axis] / this.cells[axis];
   }
 
   /** Edges of the domain, those at the corner next to the viewer or the others.  In 2D a wall is a
@@ -87,13 +88,13 @@ class Ground {
 
   /** Numbers of the cells, from 0: in each cell where there is room, else along two sides. */
   drawNumbers(pen, camera) {
-    const widths = this.plane.map(axis => camera.scale * this.size[axis] / this.cells[axis]);
+    const smallest = Math.min(...this.plane.map(axis => this.pixels(camera, axis)));
     pen.fillStyle = this.theme.css.faintInk;
     pen.font = `${SMALL}px system-ui, sans-serif`;
     pen.textAlign = "center";
     pen.textBaseline = "middle";
     pen.globalAlpha = Math.min(1, 0.35 + pen.globalAlpha);
-    if (this.dim == 2 && Math.min(...widths) >= ROOMY) this.numberCells(pen, camera);
+    if (this.dim == 2 && smallest >= ROOMY) this.numberCells(pen, camera);
     else this.plane.forEach((axis, which) => this.numberSide(pen, camera, axis, which));
   }
 
@@ -111,7 +112,7 @@ class Ground {
       }
   }
 
-  /** In 2D within the first cells, or the first that are seen; in 3D beside the nearer edge. */
+  /** In 2D below and to the left, as far as the stage goes; in 3D beside the nearer edges. */
   numberSide(pen, camera, axis, which) {
     const other = this.plane[1 - which], width = this.size[axis] / this.cells[axis];
     const place = (at, beside) => camera.look(which == 0 ? this.at(at, beside) : this.at(beside, at));
@@ -122,30 +123,34 @@ class Ground {
     }
     const [a, b] = [place(0, beside), place(this.size[axis], beside)];
     const pixels = Math.hypot(a[0] - b[0], a[1] - b[1]) / this.cells[axis];
-    const every = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].find(k => k * pixels >= 3 * SMALL) ?? 2000;
+    const every = ROUND.find(k => k * pixels >= 3 * SMALL) ?? Infinity;
+    pen.textAlign = this.dim == 2 && which == 1 ? "right" : "center";
     for (let i = 0; i < this.cells[axis]; i += every) {
       let [column, row, seen] = place((i + 0.5) * width, beside);
       if (isNaN(seen)) continue;
-      if (this.dim == 2 && which == 0) row = Math.min(row, camera.height) - 0.9 * SMALL;
-      if (this.dim == 2 && which == 1) column = Math.max(column, 0) + 1.2 * SMALL;
-      if (this.dim == 2 && which == 1 && i == 0) continue;  // there is that of the column
+      if (this.dim == 2 && which == 0) row = Math.min(row + SMALL, camera.height - SMALL);
+      if (this.dim == 2 && which == 1) column = Math.max(column - 5, 2.2 * SMALL);
       pen.fillText(i, column, row);
     }
   }
-
   /** A round length, as it is seen in the middle of the domain. */
   drawScaleBar(pen, camera) {
     const length = roundLength(90 / camera.scale), left = MARGIN.left, row = camera.height - 34;
+    const pixels = length * camera.scale, words = withUnit(length, "m");
+    pen.font = "13px system-ui, sans-serif";
+    pen.fillStyle = this.theme.css.background;
+    pen.globalAlpha = 0.75;
+    pen.fillRect(left - 8, row - 8, Math.max(pixels, pen.measureText(words).width) + 16, 36);
+    pen.globalAlpha = 1;
     pen.strokeStyle = pen.fillStyle = this.theme.css.ink;
     pen.lineWidth = 2;
     pen.beginPath();
     pen.moveTo(left, row);
-    pen.lineTo(left + length * camera.scale, row);
+    pen.lineTo(left + pixels, row);
     pen.stroke();
-    pen.font = "13px system-ui, sans-serif";
     pen.textAlign = "left";
     pen.textBaseline = "middle";
-    pen.fillText(withUnit(length, "m"), left, row + 16);
+    pen.fillText(words, left, row + 16);
   }
 
   /** A ring about a particle. */

@@ -8,7 +8,7 @@ class Colors {
     this.maps = Object.fromEntries(
       Object.entries(film.palette).map(([name, codes]) => [name, codes.map(rgb)]));
     this.values = new Float32Array(film.particles);
-    this.bytes = new Uint8Array(4 * film.particles).fill(255);
+    this.bytes = new Uint8Array(4 * wholeRows(film.particles)).fill(255);
   }
 
   /** [n, 4] bytes of all particles of a frame, by a quantity. */

@@ -9,11 +9,16 @@ function make(tag, properties, text) {
   return element;
 }
 
-/** The pen of a canvas, which has the pixels that it is shown with and takes CSS pixels. */
-function onPixels(canvas, pixelRatio) {
+/** Gives a canvas the pixels with which it is shown. */
+function fitPixels(canvas, pixelRatio) {
   const width = Math.round(canvas.clientWidth * pixelRatio);
   const height = Math.round(canvas.clientHeight * pixelRatio);
   if (canvas.width != width || canvas.height != height) [canvas.width, canvas.height] = [width, height];
+}
+
+/** The pen of a canvas with the pixels with which it is shown; it takes CSS pixels. */
+function onPixels(canvas, pixelRatio) {
+  fitPixels(canvas, pixelRatio);
   const pen = canvas.getContext("2d");
   pen.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
   return pen;
@@ -34,11 +39,11 @@ class Page {
       this.go(film.frameAt(time));
     });
     byId("energies").hidden = !film.history;
-    this.positions = new Float32Array(3 * film.particles);
+    this.places = new Float32Array(4 * wholeRows(film.particles));
     this.frame = 0;
     this.time = film.times[0];  // s, between the frames too
     this.playing = this.isDue = false;
-    this.isGridShown = true;
+    this.isGridShown = film.gridOpacity > 0;
     this.picked = null;
     this.quantity = film.quantities.find(quantity => quantity.name == film.colorBy) ?? film.quantities[0];
     this.duration = film.times.at(-1) - film.times[0];
@@ -62,7 +67,8 @@ class Page {
     byId("color").append(...film.quantities.map(({ name, label }) => make("option", { value: name }, label)));
     byId("color").value = this.quantity.name;
     byId("seek").max = frames - 1;
-    byId("opacity").value = film.gridOpacity;
+    byId("opacity").value = film.gridOpacity || 0.25;
+    byId("grid").setAttribute("aria-pressed", this.isGridShown);
     this.colors.describe(this.quantity, byId("legend"));
     this.showSettings();
   }
@@ -198,10 +204,10 @@ class Page {
 
   /** The number of the particle that is seen at a place of the stage, or null. */
   particleAt(column, row) {
-    const { positions, film } = this;
+    const { places, film } = this;
     let found = null, best = -Infinity;
     for (let p = 0; p < film.particles; p++) {
-      const [x, y, scale, toward] = this.camera.look(positions.subarray(3 * p, 3 * p + 3));
+      const [x, y, scale, toward] = this.camera.look(places.subarray(4 * p, 4 * p + 3));
       const away = Math.hypot(x - column, y - row), reach = Math.max(film.radius[p] * scale, 8);
       if (!(away < reach)) continue;
       const merit = film.dimension == 3 ? toward : -away;
@@ -229,8 +235,8 @@ class Page {
     this.paint(ratio);
     ground.drawOver(over, camera);
     if (this.picked != null) {
-      const at = 3 * this.picked;
-      ground.drawRing(over, camera, this.positions.subarray(at, at + 3), film.radius[this.picked]);
+      const at = 4 * this.picked;
+      ground.drawRing(over, camera, this.places.subarray(at, at + 3), film.radius[this.picked]);
     }
     const words = `frame ${frame + 1} of ${film.times.length}`, time = withUnit(film.times[frame], "s", 4);
     byId("seek").value = frame;
@@ -243,11 +249,10 @@ class Page {
 
   paint(ratio) {
     const canvas = byId("particles");
-    canvas.width = Math.round(canvas.clientWidth * ratio);
-    canvas.height = Math.round(canvas.clientHeight * ratio);
+    fitPixels(canvas, ratio);
     this.painter ??= new Painter(canvas, this.film, this.theme);
-    this.film.positions(this.frame, this.positions);
-    this.painter.draw(this.positions, this.colors.of(this.quantity, this.frame), this.camera, ratio);
+    this.film.places(this.frame, this.places);
+    this.painter.draw(this.places, this.colors.of(this.quantity, this.frame), this.camera, ratio);
   }
 }
 

@@ -1,13 +1,16 @@
 // Particles by WebGL2: disks of their true radius in 2D, shaded spheres with shadows in 3D, as in
-// mpm_taichi/renderers.  Each is one instance of a square that holds its disk; spheres are drawn from
-// back to front.
+// mpm_taichi/renderers.  Each is a square of two triangles that holds its disk; spheres are drawn from
+// back to front.  Vertices take their particle from textures: instances of so few of them are slow.
+
+const ROW = 1024;  // particles in a row of the textures
+
+/** Particles in the whole rows that hold n. */
+const wholeRows = n => Math.ceil(n / ROW) * ROW;
 
 const VERTEX = `#version 300 es
 precision highp float;
-layout(location = 0) in vec2 corner;     // -1 or 1
-layout(location = 1) in vec3 position;   // m
-layout(location = 2) in float radius;    // m
-layout(location = 3) in vec4 color;
+uniform highp sampler2D places;          // x, y, z, radius [m]
+uniform sampler2D colors;
 uniform mat3 axes;                       // rows: to the right, up, toward the viewer
 uniform vec3 center;                     // m
 uniform vec3 domain;                     // m
@@ -21,6 +24,12 @@ flat out float reach;                    // its radius in pixels
 flat out vec4 shade;
 
 void main() {
+  int particle = gl_VertexID / 6, which = gl_VertexID % 6;
+  ivec2 texel = ivec2(particle % ROW, particle / ROW);
+  vec4 place = texelFetch(places, texel, 0);
+  vec3 position = place.xyz;
+  float radius = place.w;
+  vec2 corner = vec2(which == 1 || which > 3 ? 1 : -1, which == 2 || which == 3 || which == 5 ? 1 : -1);
   vec3 seen = axes * (position - center);
   float near = 1.0 - seen.z * perDistance;
   float pixels = scale / max(near, 0.1);
@@ -38,7 +47,7 @@ void main() {
     pixels = scale / max(1.0 - seen.z * perDistance, 0.1);
     at = middle + vec2(seen.x, -seen.y) * pixels;
   }
-  shade = color;
+  shade = texelFetch(colors, texel, 0);
   if (spheres) shade.a = 1.0 - HAZE * (1.0 - clamp(0.5 + 0.5 * seen.z / halfDepth, 0.0, 1.0));
   vec2 clip = at / stage * 2.0 - 1.0;
   gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(clip.x, -clip.y, 0.0, 1.0);
@@ -78,18 +87,17 @@ class Painter {
   constructor(canvas, film, theme) {
     const gl = canvas.getContext("webgl2", { alpha: true, antialias: false, depth: false });
     if (!gl) throw new Error("This browser has no WebGL2");
-    Object.assign(this, { canvas, gl, theme, radius: film.radius, count: film.particles });
+    Object.assign(this, { canvas, gl, theme, count: film.particles });
     this.spheres = film.dimension == 3;
-    this.program = this.link(VERTEX.replace("HAZE", HAZE.toFixed(2)), FRAGMENT);
+    this.program = this.link(VERTEX.replace("HAZE", HAZE.toFixed(2)).replaceAll("ROW", ROW), FRAGMENT);
     this.uniforms = {};
     for (let i = 0; i < gl.getProgramParameter(this.program, gl.ACTIVE_UNIFORMS); i++) {
       const { name } = gl.getActiveUniform(this.program, i);
       this.uniforms[name] = gl.getUniformLocation(this.program, name);
     }
-    this.attribute(0, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), 2, gl.FLOAT, 0);
-    this.positions = this.attribute(1, 12 * this.count, 3, gl.FLOAT, 1);
-    this.radii = this.attribute(2, film.radius, 1, gl.FLOAT, 1);
-    this.colors = this.attribute(3, 4 * this.count, 4, gl.UNSIGNED_BYTE, 1);
+    this.rows = wholeRows(this.count) / ROW;
+    this.texture(0, gl.RGBA32F);
+    this.texture(1, gl.RGBA8);
     gl.useProgram(this.program);
   }
 
@@ -109,31 +117,36 @@ class Painter {
     return program;
   }
 
-  attribute(place, data, size, kind, divisor) {
-    const gl = this.gl, buffer = gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
-    gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, size, kind, kind == gl.UNSIGNED_BYTE, 0, 0);
-    gl.vertexAttribDivisor(place, divisor);
-    return buffer;
+  texture(unit, format) {
+    const gl = this.gl;
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.texStorage2D(gl.TEXTURE_2D, 1, format, ROW, this.rows);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }
 
-  /** Positions [n, 3] in m and colors [n, 4] in bytes, as the camera sees them. */
-  draw(positions, colors, camera, pixelRatio) {
+  upload(unit, kind, values) {
+    const gl = this.gl;
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, ROW, this.rows, gl.RGBA, kind, values);
+  }
+
+  /** Places [n, 4] (x, y, z and radius in m) and colors [n, 4] in bytes, both as long as whole rows
+   *  of particles, as the camera sees them. */
+  draw(places, colors, camera, pixelRatio) {
     const gl = this.gl, u = this.uniforms, { canvas, spheres } = this, { center } = camera.view;
     const outside = center.map((at, axis) => at - camera.size[axis] / 2);
     const halfDepth = Math.hypot(...camera.size) / 2 + Math.hypot(...outside);
-    const parts = [[this.positions, positions, 3], [this.colors, new Uint32Array(colors.buffer), 1]];
     if (spheres) {
-      const order = backToFront(positions, camera.axes[2], center, halfDepth);
-      parts.push([this.radii, this.radius, 1]);
-      for (const part of parts) part[1] = inOrder(part[1], order, part[2]);
+      const order = backToFront(this.count, places, camera.axes[2], center, halfDepth);
+      places = inOrder(places, order);
+      colors = inOrder(colors, order);
     }
-    for (const [buffer, values] of parts) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferSubData(gl.ARRAY_BUFFER, 0, values);
-    }
+    this.upload(0, gl.FLOAT, places);
+    this.upload(1, gl.UNSIGNED_BYTE, colors);
+    gl.uniform1i(u.places, 0);
+    gl.uniform1i(u.colors, 1);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
@@ -152,17 +165,17 @@ class Painter {
     gl.uniform4fv(u.shadowColor, [...this.theme.shadow, 1].map(part => SHADOW * part));
     for (const shadow of spheres ? [true, false] : [false]) {
       gl.uniform1i(u.shadow, shadow);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * this.count);
     }
   }
 }
 
-/** The numbers of the particles, the farthest first: a counting sort. */
-function backToFront(positions, toward, center, halfDepth) {
-  const n = positions.length / 3, keys = new Uint16Array(n), starts = new Uint32Array(65537);
+/** The numbers of the n particles, the farthest first: a counting sort. */
+function backToFront(n, places, toward, center, halfDepth) {
+  const keys = new Uint16Array(n), starts = new Uint32Array(65537);
   const factor = 32767 / halfDepth, shift = 32767 - factor * dot(toward, center);
-  for (let p = 0, i = 0; p < n; p++, i += 3) {
-    const x = toward[0] * positions[i] + toward[1] * positions[i + 1] + toward[2] * positions[i + 2];
+  for (let p = 0, i = 0; p < n; p++, i += 4) {
+    const x = toward[0] * places[i] + toward[1] * places[i + 1] + toward[2] * places[i + 2];
     keys[p] = Math.min(Math.max(factor * x + shift, 0), 65535);
     starts[keys[p] + 1]++;
   }
@@ -172,10 +185,10 @@ function backToFront(positions, toward, center, halfDepth) {
   return order;
 }
 
-/** Rows of `width` numbers in a new order. */
-function inOrder(values, order, width) {
+/** Rows of four numbers in a new order. */
+function inOrder(values, order) {
   const sorted = new values.constructor(values.length);
   for (let i = 0, to = 0; i < order.length; i++)
-    for (let from = order[i] * width, end = from + width; from < end; from++) sorted[to++] = values[from];
+    for (let from = 4 * order[i], end = from + 4; from < end; from++) sorted[to++] = values[from];
   return sorted;
 }
