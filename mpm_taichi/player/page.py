@@ -22,8 +22,8 @@ from .about import about
 from .film import Film
 
 SCRIPTS = (
-    "unpack", "film", "units", "camera", "painter", "ground", "legend", "chart", "log", "gestures",
-    "main",
+    "dom", "unpack", "film", "units", "camera", "painter", "ground", "legend", "chart", "log",
+    "page", "gestures", "controls", "main",
 )  # fmt: skip
 
 THEME = ("shadow", "background", "panel", "line", "missing", "faint_ink", "ink")

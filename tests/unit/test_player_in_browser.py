@@ -21,7 +21,7 @@ FLAGS = (
     "--no-sandbox", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 )  # fmt: skip
-LEFT, RIGHT, TOP, BOTTOM = 20, 20, 20, 70
+LEFT, RIGHT, TOP, BOTTOM = 30, 30, 20, 70
 """Pixels around the domain (mpm_taichi/player/template/camera.js)."""
 
 FRAMES = 21

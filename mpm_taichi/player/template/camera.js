@@ -1,8 +1,8 @@
-// Where a point of the domain lies on the stage: the camera of mpm_taichi/renderers/camera.py, which
-// the user may move.  Pixels are CSS pixels of the stage, from its upper left corner.
+// Where a point of the domain lies on the stage: the camera of mpm_taichi/renderers/camera.py,
+// which the user may move.  Pixels are CSS pixels of the stage, from its upper left corner.
 
 const TURN = 32 * Math.PI / 180, TILT = 20 * Math.PI / 180, DISTANCE = 4;
-const MARGIN = { left: 20, right: 20, top: 20, bottom: 70 };
+const MARGIN = { left: 30, right: 30, top: 20, bottom: 70 };
 const MOST_ZOOM = 400, LEAST_ZOOM = 0.2;
 const NEAREST = 0.9;  // part of the way from the center to the camera, beyond which nothing is seen
 
@@ -57,8 +57,8 @@ class Camera {
     return [[c, 0, -s], [-s * t, d, -c * t], [s * d, t, c * d]];
   }
 
-  /** Column, row, pixels per m there, and how far toward the viewer [m] a point is; the scale is NaN
-   *  behind the camera. */
+  /** Column, row, pixels per m there, and how far toward the viewer [m] a point is; the scale is
+   *  NaN behind the camera. */
   look(x) {
     const { center } = this.view;
     const r = [x[0] - center[0], x[1] - center[1], x[2] - center[2]];

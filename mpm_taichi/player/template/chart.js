@@ -5,13 +5,12 @@ const SERIES = ["kinetic", "elastic", "gravitational", "dissipated", "total"];
 
 /** Their sum at each place. */
 function withTotal(energies) {
-  const parts = SERIES.slice(0, 4).map(name => energies[name]);
-  return { ...energies, total: parts[0].map((_, i) => parts.reduce((sum, part) => sum + part[i], 0)) };
+  const sum = i => SERIES.slice(0, 4).reduce((total, name) => total + energies[name][i], 0);
+  return { ...energies, total: energies.kinetic.map((_, i) => sum(i)) };
 }
 
 class Chart {
-  /** `seek(time)` is called where the user points. */
-  constructor(film, canvas, key, seek) {
+  constructor(film, canvas, key) {
     Object.assign(this, { film, canvas });
     this.curves = withTotal(film.history.curves);
     this.frames = withTotal(film.history.frames);
@@ -28,6 +27,11 @@ class Chart {
       key.append(item);
       return [name, output];
     });
+  }
+
+  /** `seek(time)` is called where the user points. */
+  onSeek(seek) {
+    const { canvas } = this;
     const point = event => {
       if (event.buttons != 1) return;
       const { left, width } = canvas.getBoundingClientRect();
@@ -43,71 +47,80 @@ class Chart {
 
   /** With the cursor at frame k. */
   draw(k, pixelRatio) {
-    const { canvas, low, high } = this, style = getComputedStyle(canvas);
-    const pen = onPixels(canvas, pixelRatio), width = canvas.clientWidth, height = canvas.clientHeight;
+    const { canvas, low, high, frames } = this;
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const pen = onPixels(canvas, pixelRatio), style = getComputedStyle(canvas);
     const end = this.curves.time.at(-1) || 1;
-    const x = time => LEFT + time / end * (width - LEFT - RIGHT);
-    const y = energy => TOP + (high - energy) / (high - low) * (height - TOP - BOTTOM);
-    const color = name => style.getPropertyValue(`--${name}`);
-    pen.clearRect(0, 0, width, height);
+    Object.assign(this, { pen, end, right: width - RIGHT, bottom: height - BOTTOM });
+    this.color = name => style.getPropertyValue(`--${name}`);
+    this.x = time => LEFT + time / end * (width - LEFT - RIGHT);
+    this.y = energy => TOP + (high - energy) / (high - low) * (height - TOP - BOTTOM);
+    this.drawAxes();
+    this.drawCurves();
+    this.drawCursor(this.x(this.film.times[k]), name => frames[name][k]);
+    for (const [name, output] of this.outputs) output.value = withUnit(frames[name][k], "J");
+  }
+
+  drawAxes() {
+    const { pen, x, y, color, end, right, bottom } = this;
+    const energies = roundTicks(this.low, this.high), [labels, joule] = tickLabels(energies, "J");
+    const times = roundTicks(0, end), [moments, second] = tickLabels(times, "s");
     pen.font = "11px system-ui, sans-serif";
     pen.textBaseline = "middle";
-
-    const ticks = roundTicks(low, high), [labels, unit] = tickLabels(ticks, "J");
+    pen.fillStyle = color("quiet");
     pen.lineWidth = 1;
-    ticks.forEach((tick, i) => {
-      pen.strokeStyle = color(tick == 0 ? "edge" : "faint-edge");
-      segment(pen, LEFT, y(tick), width - RIGHT, y(tick));
-      pen.fillStyle = color("quiet");
-      pen.textAlign = "right";
-      pen.fillText(labels[i], LEFT - 6, y(tick));
+    pen.textAlign = "right";
+    energies.forEach((energy, i) => {
+      pen.strokeStyle = color(energy == 0 ? "edge" : "faint-edge");
+      segment(pen, LEFT, y(energy), right, y(energy));
+      pen.fillText(labels[i], LEFT - 6, y(energy));
+    });
+    times.forEach((time, i) => {
+      pen.textAlign = i == 0 ? "left" : x(time) > right - 16 ? "right" : "center";
+      pen.fillText(moments[i] + (i == 0 ? ` ${second}` : ""), x(time), bottom + 13);
     });
     pen.textAlign = "left";
-    pen.fillText(unit, 0, 7);
+    pen.fillText(joule, 0, 7);
+  }
 
+  drawCurves() {
+    const { pen, x, y } = this, { time } = this.curves;
     pen.lineWidth = 1.75;
     pen.lineJoin = "round";
     for (const name of this.shown) {
-      pen.strokeStyle = color(name);
+      pen.strokeStyle = this.color(name);
       pen.setLineDash(name == "total" ? [5, 3] : []);
       pen.beginPath();
-      this.curves[name].forEach((energy, i) => pen.lineTo(x(this.curves.time[i]), y(energy)));
+      this.curves[name].forEach((energy, i) => pen.lineTo(x(time[i]), y(energy)));
       pen.stroke();
     }
     pen.setLineDash([]);
+  }
 
-    const times = roundTicks(0, end), [times_, second] = tickLabels(times, "s");
-    pen.fillStyle = color("quiet");
-    times.forEach((time, i) => {
-      pen.textAlign = i == 0 ? "left" : x(time) > width - 24 ? "right" : "center";
-      pen.fillText(times_[i] + (i == 0 ? ` ${second}` : ""), x(time), height - 7);
-    });
-
-    const now = x(this.film.times[k]);
-    pen.strokeStyle = color("ink");
+  drawCursor(now, energyOf) {
+    const { pen } = this;
+    pen.strokeStyle = this.color("text");
     pen.lineWidth = 1;
-    segment(pen, now, TOP - 4, now, height - BOTTOM);
+    segment(pen, now, TOP - 4, now, this.bottom);
     for (const name of this.shown) {
-      pen.fillStyle = color(name);
+      pen.fillStyle = this.color(name);
       pen.beginPath();
-      pen.arc(now, y(this.frames[name][k]), 3, 0, 2 * Math.PI);
+      pen.arc(now, this.y(energyOf(name)), 3, 0, 2 * Math.PI);
       pen.fill();
     }
-    for (const [name, output] of this.outputs) output.value = withUnit(this.frames[name][k], "J");
   }
 }
 
-function segment(pen, ...ends) {
+function segment(pen, x0, y0, x1, y1) {
   pen.beginPath();
-  pen.moveTo(ends[0], ends[1]);
-  pen.lineTo(ends[2], ends[3]);
+  pen.moveTo(x0, y0);
+  pen.lineTo(x1, y1);
   pen.stroke();
 }
 
 /** Three to six round numbers from low to high. */
 function roundTicks(low, high) {
-  const step = roundLength((high - low) / 3);
-  const ticks = [];
+  const step = roundLength((high - low) / 3), ticks = [];
   for (let i = Math.ceil(low / step - 1e-9); i <= high / step + 1e-9; i++) ticks.push(i * step);
   return ticks;
 }

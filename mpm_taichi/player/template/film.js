@@ -56,14 +56,15 @@ class Film {
     const n = this.particles;
     this.coordinates.forEach((channel, axis) => {
       const low = this.low[axis], step = this.step[axis];
-      for (let p = 0, q = k * n, i = axis; p < n; p++, q++, i += 4) out[i] = low + step * channel[q];
+      for (let p = 0, q = k * n; p < n; p++, q++) out[4 * p + axis] = low + step * channel[q];
     });
     for (let p = 0; p < n; p++) out[4 * p + 3] = this.radius[p];
     return out;
   }
 
   velocity(k, p) {
-    return this.velocities.map(channel => (channel[k * this.particles + p] - 127) * this.velocityStep);
+    const at = k * this.particles + p;
+    return this.velocities.map(channel => (channel[at] - 127) * this.velocityStep);
   }
 
   /** Values of a quantity, but not of "body", at all particles of a frame. */

@@ -1,19 +1,18 @@
-// Pointer, wheel and fingers on the stage.  One finger or the mouse pans in 2D and orbits in 3D; two
-// fingers pan and zoom; in 3D the mouse pans with shift or another button than the first.
+// Pointer, wheel and fingers on the stage.  One finger or the mouse pans in 2D and orbits in 3D;
+// two fingers pan and zoom; in 3D the mouse pans with shift or another button than the first.
 
 const CLICK = 5;  // pixels that a pointer may move in a click
 
 class Gestures {
-  /** `moved()` is called after the camera has moved, `clicked(column, row)` after a click. */
-  constructor(stage, camera, moved, clicked) {
-    Object.assign(this, { stage, camera, moved, clicked, pointers: new Map(), travel: 0 });
+  constructor(stage, page) {
+    Object.assign(this, { stage, page, camera: page.camera, pointers: new Map(), travel: 0 });
     const on = (kind, act) => stage.addEventListener(kind, act.bind(this), { passive: false });
     on("pointerdown", this.press);
     on("pointermove", this.drag);
     on("pointerup", this.release);
     on("pointercancel", this.release);
     on("wheel", this.turnWheel);
-    on("dblclick", this.restore);
+    on("dblclick", () => page.showAll());
     on("contextmenu", event => event.preventDefault());
   }
 
@@ -46,23 +45,19 @@ class Gestures {
     } else {
       this.camera.pan(columns, rows);
     }
-    this.moved();
+    this.page.draw();
   }
 
   release(event) {
     const was = this.pointers.delete(event.pointerId);
-    if (was && event.type == "pointerup" && this.travel < CLICK) this.clicked(...this.place(event));
+    if (was && event.type == "pointerup" && this.travel < CLICK)
+      this.page.pickAt(...this.place(event));
   }
 
   turnWheel(event) {
     event.preventDefault();
     const lines = event.deltaY * [1, 16, 400][event.deltaMode];
     this.camera.zoomBy(Math.exp(-Math.min(Math.max(lines, -200), 200) / 400), ...this.place(event));
-    this.moved();
-  }
-
-  restore() {
-    this.camera.reset();
-    this.moved();
+    this.page.draw();
   }
 }

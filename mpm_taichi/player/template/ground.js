@@ -1,7 +1,7 @@
 // What lies under and over the particles: the domain, its grid with the numbers of the cells, its
 // walls; the scale bar and the picked particle.
 
-const FINEST = 7;  // pixels between two lines; of a finer grid each second, fifth, tenth ... is drawn
+const FINEST = 7;  // pixels between lines; of a finer grid each second, fifth, tenth ... is drawn
 const ROUND = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const ROOMY = 44, SMALL = 11;  // pixels: a cell that holds its numbers, their size
 
@@ -100,22 +100,25 @@ class Ground {
 
   numberCells(pen, camera) {
     const [dx, dy] = this.size.map((length, axis) => length / this.cells[axis]);
-    const left = camera.view.center[0] - camera.column / camera.scale;
-    const top = camera.view.center[1] + camera.row / camera.scale;
-    const within = (cell, axis) => Math.min(Math.max(Math.floor(cell), 0), this.cells[axis]);
-    const columns = [within(left / dx, 0), within((left + camera.width / camera.scale) / dx + 1, 0)];
-    const rows = [within((top - camera.height / camera.scale) / dy, 1), within(top / dy + 1, 1)];
-    for (let j = rows[0]; j < rows[1]; j++)
-      for (let i = columns[0]; i < columns[1]; i++) {
-        const [column, row] = camera.look([(i + 0.5) * dx, (j + 0.5) * dy, 0]);
-        pen.fillText(`${i}, ${j}`, column, row);
+    const { scale, column, row, view: { center: [x, y] } } = camera;
+    const seen = (low, high, axis) => [  // cells from ... to ...
+      Math.max(Math.floor(low), 0), Math.min(Math.ceil(high), this.cells[axis]),
+    ];
+    const [left, right] = [x - column / scale, x + (camera.width - column) / scale];
+    const [bottom, top] = [y - (camera.height - row) / scale, y + row / scale];
+    const [i0, i1] = seen(left / dx, right / dx, 0), [j0, j1] = seen(bottom / dy, top / dy, 1);
+    for (let j = j0; j < j1; j++)
+      for (let i = i0; i < i1; i++) {
+        const [at, height] = camera.look([(i + 0.5) * dx, (j + 0.5) * dy, 0]);
+        pen.fillText(`${i}, ${j}`, at, height);
       }
   }
 
   /** In 2D below and to the left, as far as the stage goes; in 3D beside the nearer edges. */
   numberSide(pen, camera, axis, which) {
     const other = this.plane[1 - which], width = this.size[axis] / this.cells[axis];
-    const place = (at, beside) => camera.look(which == 0 ? this.at(at, beside) : this.at(beside, at));
+    const place = (at, beside) =>
+      camera.look(which == 0 ? this.at(at, beside) : this.at(beside, at));
     let beside = 0;
     if (this.dim == 3) {
       const far = this.size[other], away = 1.3 * SMALL / camera.scale;
@@ -129,7 +132,7 @@ class Ground {
       let [column, row, seen] = place((i + 0.5) * width, beside);
       if (isNaN(seen)) continue;
       if (this.dim == 2 && which == 0) row = Math.min(row + SMALL, camera.height - SMALL);
-      if (this.dim == 2 && which == 1) column = Math.max(column - 5, 2.2 * SMALL);
+      if (this.dim == 2 && which == 1) column = column > 20 ? column - 5 : 24;
       pen.fillText(i, column, row);
     }
   }

@@ -1,7 +1,5 @@
 // What the colors mean, and the colors themselves.
 
-const rgb = code => [0, 2, 4].map(at => parseInt(code.slice(at, at + 2), 16));
-
 class Colors {
   constructor(film) {
     this.film = film;
@@ -43,7 +41,8 @@ class Colors {
       return;
     }
     const [low, high] = quantity.shown, codes = this.film.palette[quantity.map];
-    const [labels, unit] = tickLabels([low, (low + high) / 2, high], quantity.unit, quantity.prefixed);
+    const values = [low, (low + high) / 2, high];
+    const [labels, unit] = tickLabels(values, quantity.unit, quantity.prefixed);
     const bar = make("div", { className: "bar" });
     const stops = codes.filter((_, i) => i % 15 == 0).map(code => `#${code}`);
     bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;

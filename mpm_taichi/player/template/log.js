@@ -8,11 +8,12 @@ class Log {
 
   /** Rows of words and numbers; `picked` is the number of a particle, or null. */
   rows(k, picked) {
-    const { film } = this, rows = [["step", String(film.steps[k])], ["time", withUnit(film.times[k], "s", 6)]];
+    const { film } = this;
+    const rows = [["step", String(film.steps[k])], ["time", withUnit(film.times[k], "s", 6)]];
     if (picked == null) {
       rows.push(["particle", "click one to see its values"]);
     } else {
-      const velocity = film.velocity(k, picked), speed = Math.hypot(...velocity), m = film.mass[picked];
+      const velocity = film.velocity(k, picked), m = film.mass[picked];
       const place = film.coordinates.map((channel, axis) =>
         film.low[axis] + film.step[axis] * channel[k * film.particles + picked]);
       rows.push(
@@ -25,10 +26,12 @@ class Log {
         const value = quantity.low + quantity.step * quantity.channel[k * film.particles + picked];
         rows.push([quantity.label, withUnit(value, quantity.unit, 3, quantity.prefixed)]);
       }
-      rows.push(["kinetic energy", withUnit(0.5 * m * speed ** 2, "J")]);
+      rows.push(["kinetic energy", withUnit(0.5 * m * Math.hypot(...velocity) ** 2, "J")]);
     }
     for (const [name, energy] of Object.entries(film.history ? withTotal(film.history.frames) : {}))
-      rows.push([name == "total" ? "energy of all" : `${name} energy of all`, withUnit(energy[k], "J", 4)]);
+      rows.push([
+        name == "total" ? "energy of all" : `${name} energy of all`, withUnit(energy[k], "J", 4),
+      ]);
     return rows;
   }
 
@@ -39,9 +42,4 @@ class Log {
 
 function vector(entries, unit, digits) {
   return `(${entries.map(entry => plain(entry, digits)).join(", ")}) ${unit}`;
-}
-
-/** Pairs of words as the entries of a <dl>. */
-function definitions(rows) {
-  return rows.flatMap(([word, text]) => [make("dt", {}, word), make("dd", {}, text)]);
 }

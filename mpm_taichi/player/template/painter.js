@@ -1,14 +1,20 @@
 // Particles by WebGL2: disks of their true radius in 2D, shaded spheres with shadows in 3D, as in
-// mpm_taichi/renderers.  Each is a square of two triangles that holds its disk; spheres are drawn from
-// back to front.  Vertices take their particle from textures: instances of so few of them are slow.
+// mpm_taichi/renderers.  Each is a square of two triangles that holds its disk; spheres are drawn
+// from back to front.  Vertices take their particle from textures: drawing it as an instance of
+// so few vertices is slow.
 
 const ROW = 1024;  // particles in a row of the textures
+
+const HAZE = 0.25;    // of the background in the color of a particle at the back
+const SHADOW = 0.75;  // of its color in what lies in the shadow
 
 /** Particles in the whole rows that hold n. */
 const wholeRows = n => Math.ceil(n / ROW) * ROW;
 
 const VERTEX = `#version 300 es
 precision highp float;
+const int ROW = ${ROW};
+const float HAZE = ${HAZE.toFixed(2)};
 uniform highp sampler2D places;          // x, y, z, radius [m]
 uniform sampler2D colors;
 uniform mat3 axes;                       // rows: to the right, up, toward the viewer
@@ -29,7 +35,7 @@ void main() {
   vec4 place = texelFetch(places, texel, 0);
   vec3 position = place.xyz;
   float radius = place.w;
-  vec2 corner = vec2(which == 1 || which > 3 ? 1 : -1, which == 2 || which == 3 || which == 5 ? 1 : -1);
+  vec2 corner = vec2(which == 1 || which > 3, which == 2 || which == 3 || which == 5) * 2.0 - 1.0;
   vec3 seen = axes * (position - center);
   float near = 1.0 - seen.z * perDistance;
   float pixels = scale / max(near, 0.1);
@@ -79,9 +85,6 @@ void main() {
   }
 }`;
 
-const HAZE = 0.25;    // of the background in the color of a particle at the back
-const SHADOW = 0.75;  // of its color in what lies in the shadow
-
 class Painter {
   /** Throws what WebGL says where it cannot be used. */
   constructor(canvas, film, theme) {
@@ -89,7 +92,7 @@ class Painter {
     if (!gl) throw new Error("This browser has no WebGL2");
     Object.assign(this, { canvas, gl, theme, count: film.particles });
     this.spheres = film.dimension == 3;
-    this.program = this.link(VERTEX.replace("HAZE", HAZE.toFixed(2)).replaceAll("ROW", ROW), FRAGMENT);
+    this.program = this.link(VERTEX, FRAGMENT);
     this.uniforms = {};
     for (let i = 0; i < gl.getProgramParameter(this.program, gl.ACTIVE_UNIFORMS); i++) {
       const { name } = gl.getActiveUniform(this.program, i);

@@ -1,6 +1,8 @@
 // Numbers for people, as in mpm_taichi/renderers/units.py.
 
-const PREFIXES = { "-12": "p", "-9": "n", "-6": "\u00b5", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
+const PREFIXES = {
+  "-12": "p", "-9": "n", "-6": "\u00b5", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T",
+};
 
 /** The factor and name of the unit in which a magnitude is a handy number. */
 function prefix(magnitude) {
@@ -23,7 +25,8 @@ function plain(value, digits = 3) {
 /** The longest of 1, 2 and 5 times a power of ten that is no longer than `longest`. */
 function roundLength(longest) {
   const power = 10 ** Math.floor(Math.log10(longest));
-  return Math.max(...[0.5, 1, 2, 5].map(factor => factor * power).filter(length => length <= longest));
+  const lengths = [0.5, 1, 2, 5].map(factor => factor * power);
+  return Math.max(...lengths.filter(length => length <= longest));
 }
 
 /** Values in one unit, to a hundredth of their range, and the unit. */
