@@ -6,14 +6,14 @@ from functools import cached_property
 import numpy as np
 
 from . import runtime, stages
+from .bodies import body_points
 from .errors import InputError, RunError
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
 from .memory import planned_memory, refuse_too_much
-from .particles import BodyPoints
 from .scene import Scene
 from .schedules import EverySeconds, even_step
-from .seeding import expected_counts, refuse_outside, seed
+from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
 from .time_step import TimeStep
@@ -28,34 +28,6 @@ MOST_TOGETHER = 64
 
 PARTICLE_STEPS = 100_000
 """Of one launch, some 10 ms: a signal waits for its end."""
-
-
-def body_points(scene, index, X, V0) -> BodyPoints:
-    """The particles of a body at the start: X [n, dim] (m) are their places before the displacement
-    that the scene gives, V0 [n] their volumes."""
-    body = scene.bodies[index]
-    material, still = scene.materials[body.material], [0.0] * scene.dimension
-    x, H = X, None
-    if body.displacement is not None:
-        u = scene.field(body.displacement)
-        x, H = X + u.value(X), u.gradient(X)
-        refuse_outside(x, f"bodies[{index}].displacement", body.name, scene.domain)
-    velocity = scene.field(body.velocity or still)
-    v, L = velocity.value(X), velocity.gradient(X)
-    for key, values in (("velocity", v), ("displacement", x)):
-        if not np.isfinite(values).all():
-            bad = X[~np.isfinite(values).all(axis=1)][0].tolist()
-            raise InputError(f"bodies[{index}].{key} ({body.name}): is no number at {bad}")
-    if H is not None:
-        F = H + np.eye(scene.dimension)
-        folded = ~(np.linalg.det(F) > 0)
-        if folded.any():
-            raise InputError(
-                f"bodies[{index}].displacement ({body.name}): turns the material inside out at "
-                f"{X[folded][0].tolist()}, where det(I + grad u) is not above 0"
-            )
-        L = L @ np.linalg.inv(F)
-    return BodyPoints(material, x, v, V0, X, H, L if L.any() else None)
 
 
 class Simulation:
