@@ -116,6 +116,13 @@ class Grid(NodeLayout):
         low, high = self.lowest.to_numpy() - 1, self.highest.to_numpy() + self.support
         self.near_end = (low < self.ghost) | (high > self.ghost + np.array(self.cells))
 
+    @property
+    def stored(self) -> dict[str, Any]:
+        """The fields that a checkpoint keeps, by name: what the last sort has found, and the count
+        of nodes cut.  From them `plan` (kernels/sort.py) makes the rest."""
+        names = ("start", "occupied", "lowest", "highest", "cut")
+        return {f"grid.{name}": getattr(self, name) for name in names}
+
     def workers(self, count):
         """How many share `count` elements."""
         return count if self.atomic else self.threads

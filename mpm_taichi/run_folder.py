@@ -18,7 +18,13 @@ class Contents(NamedTuple):
     others: tuple[str, ...]
 
 
-RUN = Contents("run", "run.json", ("scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png"))
+RUN = Contents(
+    "run", "run.json",
+    (
+        "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png", "checkpoints/step_*.npz*",
+        "trouble/*",
+    ),
+)  # fmt: skip
 STUDY = Contents(
     "convergence study", "converge.json", ("scene.yaml", "converge.csv", "converge.png")
 )
@@ -53,8 +59,9 @@ def create(scene_name: str, wanted: Path | None, overwrite: bool, contents: Cont
         for pattern in (contents.mark, *contents.others):
             for path in wanted.glob(pattern):
                 path.unlink()
-        with contextlib.suppress(OSError):  # not there, or with a file of the user's
-            (wanted / "frames").rmdir()
+        for folder in {Path(pattern).parent for pattern in contents.others} - {Path()}:
+            with contextlib.suppress(OSError):  # not there, or with a file of the user's
+                (wanted / folder).rmdir()
         wanted.mkdir(parents=True, exist_ok=True)
         return wanted
     except OSError as error:

@@ -2,12 +2,14 @@
 
 import os
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from . import runtime, stages
 from .bodies import body_points
-from .errors import InputError, RunError
+from .errors import InputError, MotionError
+from .kernels.guard import guard
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
 from .memory import planned_memory, refuse_too_much
@@ -17,6 +19,7 @@ from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
 from .time_step import TimeStep
+from .trouble import fault, in_words, particle_values
 
 PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
@@ -29,16 +32,29 @@ MOST_TOGETHER = 64
 PARTICLE_STEPS = 100_000
 """Of one launch, some 10 ms: a signal waits for its end."""
 
+GUARD_STEPS = 32
+"""At most, between two looks at all particles (kernels/guard.py), which so cost 1 % of the run."""
+
+COLLAPSE = 1e-6
+"""An automatic step shorter than this part of the first one ends the run."""
+
+CLOCK = ("time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started")
+"""Of a Simulation, in a checkpoint."""
+
 
 class Simulation:
     """A scene, seeded and ready to run.  Starting one ends any other in the same process, since
     Taichi has one set of fields.
 
     `threads` workers on a CPU; by default what the size of the scene is worth.  The result does
-    not depend on it, to the last bit.  Few particles take whole steps on one of them."""
+    not depend on it, to the last bit.  Few particles take whole steps on one of them.
 
-    def __init__(self, scene: Scene, device="cpu", precision=None, threads=None):
-        self.scene, self.device = scene, device
+    `reduction` shortens all steps."""
+
+    def __init__(
+        self, scene: Scene, device="cpu", precision=None, threads=None, reduction: float = 1.0
+    ):
+        self.scene, self.device, self.threads_asked = scene, device, threads
         self.precision = precision or scene.method.precision or runtime.default_precision(device)
         runtime.stop()
         refuse_too_much(scene, expected_counts(scene), device, self.precision)
@@ -59,6 +75,7 @@ class Simulation:
         method = scene.method
         given = None if scene.time.step == "auto" else scene.time.step
         self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
+        self.time_step.reduction = reduction
         try:
             self.solver = Solver(
                 bodies, scene.domain.cells, scene.cell_size, method.basis_class,
@@ -83,6 +100,10 @@ class Simulation:
         self.limit = self.time_step.limits(self.start_speed)[0]
         self.last_dt = 0.0
         self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
+        self.first_dt = self.dt
+        self.guard_steps, self.guarded = GUARD_STEPS, 0
+        self.is_started = False  # recorders have seen the start
+        self.stop_asked = False  # `advance` returns after the step or launch that it is at
         self.solver.start(self.dt)
 
     def _half_width(self, bodies):
@@ -136,11 +157,37 @@ class Simulation:
         before, landing = self.step_count, False
         while not landing and self.step_count - before < most:
             landing = take(most - (self.step_count - before))
-            self.__dict__.pop("snapshot", None)
-            self.__dict__.pop("sums", None)
-            self._stop_if_lost()
+            self._forget_moment()
+            self._look_after()
             self.output_count += landing
+            if self.stop_asked:
+                break
         return landing
+
+    def _forget_moment(self):
+        self.__dict__.pop("snapshot", None)
+        self.__dict__.pop("sums", None)
+
+    def _look_after(self):
+        """MotionError where a particle is lost or the step has collapsed, and, looked for now and
+        then, where numbers are none."""
+        if self.solver.particles.lost[None] < self.ranges[-1]:
+            raise self._lost()
+        if self.time_step.given is None and self.dt < COLLAPSE * self.first_dt:
+            raise MotionError(
+                f"t = {self.time:.6g} s, step {self.step_count}: the time step has fallen from "
+                f"{self.first_dt:.3g} to {self.dt:.3g} s: the run has blown up"
+            )
+        if self.step_count - self.guarded >= self.guard_steps:
+            self.guard()
+
+    def guard(self) -> None:
+        """MotionError where a particle's numbers are none, or no longer those of matter."""
+        self.guarded = self.step_count
+        guard(self.solver.particles)
+        bad = self.solver.particles.bad[None]
+        if bad < self.ranges[-1]:
+            raise self._bad(bad)
 
     def _take_step(self, _most) -> bool:
         dt = self.dt
@@ -160,7 +207,8 @@ class Simulation:
             self.time_step.last, self.solver.drift,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
-        self.solver.take_whole_steps(clock, int(min(most, MOST_TOGETHER, patience)))
+        together = min(most, MOST_TOGETHER, patience, self.guard_steps)
+        self.solver.take_whole_steps(clock, int(together))
         self.dt, self.time_step.last = clock.dt, clock.last
         self._note_steps(clock.time, clock.lengths.tolist())
         landing = clock.time == self.next_output
@@ -176,12 +224,35 @@ class Simulation:
     def run(self, recorders=()) -> None:
         """Step to the end.  Each recorder sees the start, every output and every step; one that has
         `every_steps` at least those that it divides, or none between outputs if it is None."""
-        for recorder in recorders:
-            recorder.record(self, is_output=True)
+        if not self.is_started:
+            self.is_started = True
+            for recorder in recorders:
+                recorder.record(self, is_output=True)
         while not self.is_done:
             landed = self.advance(self._steps_to_next_record(recorders))
             for recorder in recorders:
                 recorder.record(self, is_output=landed)
+
+    def state(self) -> dict[str, Any]:
+        """The numbers of a checkpoint; its fields are `solver.stored`."""
+        clock = {name: getattr(self, name) for name in CLOCK}
+        parts = {"time_step": self.time_step.state(), "solver": self.solver.state()}
+        return clock | parts
+
+    def restore(self, state: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
+        """Go on from a checkpoint of the same scene, version and precision."""
+        for name in CLOCK:
+            setattr(self, name, state[name])
+        self.time_step.restore(state["time_step"])
+        self.solver.restore(state["solver"], arrays)
+        self.solver.put_pace(self.time_step.pace)
+        self._forget_moment()
+        self.guard()
+
+    def shorten_steps(self, reduction: float) -> None:
+        """From the second one on: the impulse of the first is with the particles already."""
+        self.time_step.reduction = reduction
+        self.solver.put_pace(self.time_step.pace)
 
     def _steps_to_next_record(self, recorders):
         if self.step_count == 0:  # the first step compiles
@@ -204,11 +275,7 @@ class Simulation:
         finite = np.isfinite(snapshot.position) & np.isfinite(snapshot.velocity)
         finite = finite.all(axis=1) & np.isfinite(snapshot.energy_density)
         if not finite.all():
-            first = int(np.flatnonzero(~finite)[0])
-            raise RunError(
-                f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(first)} "
-                f"has a position, velocity or energy that is no number. {self._advice()}"
-            )
+            raise self._bad(int(np.flatnonzero(~finite)[0]))
         return snapshot
 
     @cached_property
@@ -222,24 +289,33 @@ class Simulation:
             _ = self.snapshot  # names the particle that is no number
         return found
 
-    def _stop_if_lost(self):
+    def _bad(self, particle) -> MotionError:
+        values = particle_values(self.solver, particle)
+        return MotionError(
+            f"{self._when(particle)} {fault(values)} ({in_words(values)}). {self._advice()}",
+            particle,
+        )
+
+    def _lost(self) -> MotionError:
         lost = self.solver.particles.lost[None]
-        if lost < self.ranges[-1]:
-            x = self.solver.particles.to_numpy("x")[lost]
-            when = f"t = {self.time:.6g} s, step {self.step_count}"
-            who = f"{when}: {self.describe_particle(lost)}"
-            if not np.isfinite(x).all():
-                raise RunError(f"{who} has a position that is no number. {self._advice()}")
-            raise RunError(
-                f"{who} has left the domain {self.scene.domain.size}: it is at "
-                f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger or give it "
-                "walls (domain.walls; a fast soft body can still be pressed through), or, if it "
-                f"should not have moved so: {self._advice()}"
-            )
+        x = self.solver.particles.to_numpy("x")[lost]
+        if not np.isfinite(x).all():
+            return self._bad(lost)
+        return MotionError(
+            f"{self._when(lost)} has left the domain {self.scene.domain.size}: it is at "
+            f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger or give it walls "
+            "(domain.walls; a fast soft body can still be pressed through). If it should not have "
+            f"moved so: {self._advice()}",
+            lost,
+            is_exit=True,
+        )
+
+    def _when(self, particle):
+        return f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(particle)}"
 
     def _advice(self):
         return (
-            f"a shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
+            f"A shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
             f"{self.limit.name} limit at the start is {self.limit.seconds:.3g} s "
             f"({self.limit.cause})."
         )

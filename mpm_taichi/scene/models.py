@@ -212,6 +212,11 @@ class Output(Model):
     )
     images: Images | Literal["none"] = Field(default=Images(), description="pictures, or none")
     history: History = Field(default=History(), description="table of energies and momenta")
+    checkpoints: Positive | Literal["none"] | None = Field(
+        default=None,
+        description="seconds of computing between two states that a run can be resumed from, or "
+        "none; default: 60, or more where they would take over 2 % of the run",
+    )
 
 
 class Scene(Model):
