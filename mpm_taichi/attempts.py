@@ -9,7 +9,8 @@ from . import checkpoints
 from .errors import InputError, MotionError
 from .identity import identity
 from .interruption import Interrupted
-from .recorders import Errors, History, Images, Keeper
+from .recorders import Errors, History, Images, Keeper, ParaView, Snapshots
+from .recorders.snapshots import wants_snapshots
 from .simulation import Simulation
 
 MOST_RETRIES = 5
@@ -65,18 +66,26 @@ class Attempts:
     @contextlib.contextmanager
     def _recording(self):
         scene, output = self.simulation.scene, self.simulation.scene.output
-        states = self.checkpoint.meta["recorders"] if self.checkpoint else {}
-        plans: list[tuple[Any, str, Any]] = [(History, "history.csv", output.history.every_steps)]
+        every, states = output.history.every_steps, {}
+        if self.checkpoint is not None:
+            states = self.checkpoint.meta["recorders"]
+        plans: list[tuple[Any, ...]] = [(History, "history.csv", every)]
         if scene.exact is not None:
-            plans.append((Errors, "errors.csv", output.history.every_steps))
+            plans.append((Errors, "errors.csv", every))
         if output.images != "none":
             plans.append((Images, "frames", output.images))
+        if wants_snapshots(scene, self.simulation.ranges[-1]):
+            plans.append((Snapshots, "snapshots"))
+        if output.paraview:
+            plans.append((ParaView, "paraview", getattr(output.paraview, "grid", False)))
         with contextlib.ExitStack() as stack:
             self.recorders = []
-            for kind, name, how in plans:
+            for kind, name, *how in plans:
                 state = states.get(kind.__name__)
-                self.recorders.append(kind(self.folder / name, self.simulation, how, state))
+                self.recorders.append(kind(self.folder / name, self.simulation, *how, state=state))
                 stack.callback(self.recorders[-1].close)
+            if scene.exact is not None and not self.failures:
+                self.console.print(self.recorder(Errors).exact.describe(), soft_wrap=True)
             yield Keeper(
                 self.folder / "checkpoints", self.recorders, self.identity, output.checkpoints
             )

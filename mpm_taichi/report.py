@@ -7,6 +7,7 @@ import time
 from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
+from .disk_space import planned_disk
 from .recorders import Errors, History
 
 KEPT = r"mass|(angular_)?momentum(_[xyz])?|(kinetic|elastic|dissipated|gravitational)_energy"
@@ -49,6 +50,7 @@ class Report:
             },
             "seeding": [dataclasses.asdict(report) for report in simulation.seeding],
             "memory": simulation.memory.summary(),
+            "disk": planned_disk(simulation),
             "timing": {
                 "first_calls_seconds": dict(stages.first_calls),
                 "stage_seconds": dict(stages.seconds),

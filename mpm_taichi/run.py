@@ -10,6 +10,7 @@ from rich.console import Console
 
 from . import run_folder
 from .attempts import Attempts
+from .disk_space import describe, planned_disk, refuse_full_disk
 from .errors import MotionError, RunError
 from .interruption import Interrupted, Interruption
 from .progress import Progressing
@@ -26,6 +27,7 @@ def run(scene, name, options, console: Console) -> int:
     run_folder.refuse(options.output, options.overwrite)
     simulation = Simulation(scene, options.device or "cpu", options.precision, options.threads)
     announce(simulation, console)
+    refuse_full_disk(planned_disk(simulation), options.output or Path("runs"))
     folder = run_folder.create(name, options.output, options.overwrite)
     return carry_out(Attempts(simulation, folder, console), options, console, began)
 
@@ -79,6 +81,9 @@ def check(scene, options, console: Console) -> int:
     simulation = Simulation(scene, options.device or "cpu", options.precision, options.threads)
     announce(simulation, console)
     console.print(simulation.memory.describe(), soft_wrap=True)
+    disk = planned_disk(simulation)
+    console.print(describe(disk), soft_wrap=True)
+    refuse_full_disk(disk, Path("runs"))
     steps = scene.time.end / simulation.dt
     console.print(
         f"about {steps:.0f} steps to t = {scene.time.end:g} s, {simulation.outputs.count} outputs "

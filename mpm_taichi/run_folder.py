@@ -6,6 +6,8 @@ from itertools import count
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from .errors import InputError
 
 
@@ -19,10 +21,14 @@ class Contents(NamedTuple):
 
 
 RUN = Contents(
-    "run", "run.json",
+    "run",
+    "run.json",
     (
-        "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png", "checkpoints/step_*.npz*",
-        "trouble/*",
+        "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png",
+        "snapshots/snapshot_*.npz", "snapshots/particles.npz", "snapshots/*.npz.part",
+        "paraview/particles_*.vtp", "paraview/grid_*.vti", "paraview/particles.pvd",
+        "paraview/grid.pvd", "paraview/*.part", "video.mp4", "video.gif", "video.webp",
+        "checkpoints/step_*.npz*", "trouble/*",
     ),
 )  # fmt: skip
 STUDY = Contents(
@@ -59,9 +65,9 @@ def create(scene_name: str, wanted: Path | None, overwrite: bool, contents: Cont
         for pattern in (contents.mark, *contents.others):
             for path in wanted.glob(pattern):
                 path.unlink()
-        for folder in {Path(pattern).parent for pattern in contents.others} - {Path()}:
+        for inner in {Path(pattern).parent for pattern in contents.others} - {Path()}:
             with contextlib.suppress(OSError):  # not there, or with a file of the user's
-                (wanted / folder).rmdir()
+                (wanted / inner).rmdir()
         wanted.mkdir(parents=True, exist_ok=True)
         return wanted
     except OSError as error:
@@ -89,3 +95,28 @@ def write_text(path: Path, text: str) -> None:
 
 def write_json(path: Path, content: dict) -> None:
     write_text(path, json.dumps(content, indent=2) + "\n")
+
+
+def write_arrays(path: Path, **arrays) -> None:
+    """An .npz file, not compressed; atomic."""
+    part = path.with_name(path.name + ".part")
+    with part.open("wb") as file:
+        np.savez(file, **arrays)
+    part.replace(path)
+
+
+def read_report(folder: Path) -> dict:
+    """run.json.  InputError where the folder holds no run."""
+    path = folder / RUN.mark
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (FileNotFoundError, NotADirectoryError):
+        what = "has no run.json, so it is no run" if folder.is_dir() else "is no folder of a run"
+        raise InputError(
+            f"{folder}: {what}; name the folder of one, such as runs/two_disks-001"
+        ) from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from None
+    if not isinstance(content, dict):
+        raise InputError(f"{path}: is no report of a run")
+    return content

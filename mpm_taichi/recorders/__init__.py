@@ -12,5 +12,7 @@ from .errors import Errors
 from .history import History
 from .images import Images
 from .keeper import Keeper
+from .paraview import ParaView
+from .snapshots import Snapshots
 
-__all__ = ["Errors", "History", "Images", "Keeper"]
+__all__ = ["Errors", "History", "Images", "Keeper", "ParaView", "Snapshots"]

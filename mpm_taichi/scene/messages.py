@@ -25,7 +25,8 @@ def messages(errors: Iterable, data) -> dict[tuple[tuple, str], None]:
         path, rule, holder = follow(error["loc"], data)
         value = value_at(path, data)
         kind = error["type"]
-        if kind == "literal_error" and is_union(rule) and isinstance(value, dict):
+        word = kind in ("literal_error", "bool_type")
+        if word and is_union(rule) and isinstance(value, dict):
             continue  # the branch that is a mapping tells what is wrong within it
         if kind == "extra_forbidden":
             known = list(holder["properties"])

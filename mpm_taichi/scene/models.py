@@ -203,6 +203,12 @@ class History(Model):
     every_steps: int = Field(default=10, ge=1, description="steps between two rows")
 
 
+class ParaView(Model):
+    """Files for ParaView."""
+
+    grid: bool = Field(default=False, description="mass and velocity of the nodes too")
+
+
 class Output(Model):
     """What a run writes."""
 
@@ -216,6 +222,14 @@ class Output(Model):
         default=None,
         description="seconds of computing between two states that a run can be resumed from, or "
         "none; default: 60, or more where they would take over 2 % of the run",
+    )
+    snapshots: bool | None = Field(
+        default=None,
+        description="particles of each output in a file, for player, films and analysis; default: "
+        "up to 200,000 particles",
+    )
+    paraview: bool | ParaView = Field(
+        default=False, description="files for ParaView: particles of each output, or the grid too"
     )
 
 

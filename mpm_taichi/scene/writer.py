@@ -42,6 +42,8 @@ def _flow(value) -> str:
         return f"{{{', '.join(f'{key}: {_flow(entry)}' for key, entry in _entries(value))}}}"
     if isinstance(value, list):
         return f"[{', '.join(map(_flow, value))}]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
     return _text(value) if isinstance(value, str) else repr(value)
 
 

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from mpm_taichi import cli, load_scene, report, run_folder
+from mpm_taichi.commands import COMMANDS
 from mpm_taichi.commands import run as run_command
 from mpm_taichi.interruption import Interrupted, Interruption
 from mpm_taichi.recorders import History
@@ -233,7 +234,7 @@ def test_a_run_imports_only_what_it_needs(watched):
     assert {"gmsh", "meshio", "PIL", "matplotlib"}.isdisjoint(loaded)
     assert not any(name.startswith("mpm_taichi.renderers") for name in loaded)
     assert sorted(path.name for path in watched["folder"].iterdir()) == [
-        "history.csv", "run.json", "scene.yaml",
+        "history.csv", "run.json", "scene.yaml", "snapshots",
     ]  # fmt: skip
 
 
@@ -276,8 +277,7 @@ def test_a_library_that_is_missing(tmp_path):
         (["chekc", "x.yaml"], "did you mean 'check'?"),
         (
             ["x.txt"],
-            "'x.txt' is neither a command nor a .yaml file (run, check, converge, advise, "
-            "materials, curve, schema)",
+            f"'x.txt' is neither a command nor a .yaml file ({', '.join(COMMANDS)})",
         ),
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),

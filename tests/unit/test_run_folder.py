@@ -121,16 +121,19 @@ def test_overwrite_replaces_the_run_and_nothing_else(tmp_path, capfd):
     assert cli.main([*SMALL, "-o", str(folder), "--overwrite"]) == 0, capfd.readouterr().err
     assert [path.read_text() for path in mine] == ["mine"] * 3
     assert names(folder) == [
-        "frames", "frames_kept", "history.csv", "notes.txt", "run.json", "scene.yaml",
+        "frames", "frames_kept", "history.csv", "notes.txt", "run.json", "scene.yaml", "snapshots",
     ]  # fmt: skip
     assert names(folder / "frames") == ["film.mp4", *(f"frame_000{k}.png" for k in range(3))]
     assert json.loads((folder / "run.json").read_text())["status"] == "done"
 
 
-def test_overwrite_leaves_no_empty_frames(tmp_path):
-    """A run without pictures in place of one with: no folder of frames remains."""
+def test_overwrite_leaves_no_empty_folder(tmp_path):
+    """A run without pictures and snapshots in place of one with: no empty folder remains."""
     folder = tmp_path / "out"
     fake_run(folder, frames=2)
+    (folder / "snapshots").mkdir()
+    for name in ("particles.npz", "snapshot_0000.npz", "snapshot_0001.npz.part"):
+        (folder / "snapshots" / name).write_text("old")
     run_folder.create("x", folder, True)
     assert names(folder) == []
 

@@ -116,7 +116,7 @@ def test_scalars_of_yaml_1_2(text, value):
 def test_numbers_of_the_scene_are_plain(load):
     """Python's own floats, also where the file has integers: no type of a YAML library."""
     scene = load(TEXT)
-    assert plain_types(scene.model_dump()) <= {float, int, str, type(None)}
+    assert plain_types(scene.model_dump()) <= {float, int, bool, str, type(None)}
     assert type(scene.materials["rubber"].youngs_modulus) is float
     assert type(scene.bodies[1].shape.max[0]) is float
 
@@ -136,6 +136,8 @@ def test_texts_of_other_editors(load, before, newline):
         ("time.end = 1e1", lambda scene: scene.time.end == 10),
         ("domain.cells[0]=20", lambda scene: scene.domain.cells == [20, 40]),
         ("output.history.every_steps=3", lambda scene: scene.output.history.every_steps == 3),
+        ("output.snapshots=true", lambda scene: scene.output.snapshots is True),
+        ("output.paraview={grid: true}", lambda scene: scene.output.paraview.grid is True),
         ("output.images=none", lambda scene: scene.output.images == "none"),
         ("title=a=b", lambda scene: scene.title == "a=b"),
         ("domain={size: [1, 2], cells: [10, 20]}", lambda scene: scene.cell_size == 0.1),

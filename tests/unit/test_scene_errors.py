@@ -151,6 +151,21 @@ SECTIONS = [
         "26:23: output.images: must be a mapping with the keys color_by, grid, size, range or none "
         "(got 'no'); did you mean 'none'?",
     ),
+    (
+        "{color_by: speed}",
+        "none, paraview: {gird: true}",
+        "26:48: output.paraview.gird: unknown key; did you mean 'grid'?",
+    ),
+    (
+        "{color_by: speed}",
+        "none, paraview: 1",
+        "26:37: output.paraview: must be true or false or a mapping with the keys grid (got 1)",
+    ),
+    (
+        "{color_by: speed}",
+        "none, snapshots: maybe",
+        "26:37: output.snapshots: must be true or false (got 'maybe')",
+    ),
 ]
 
 MATERIALS_AND_BODIES = [

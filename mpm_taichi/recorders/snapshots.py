@@ -1,0 +1,90 @@
+"""snapshots/snapshot_0000.npz, ...: the particles at each output."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..materials.law import MaterialLaw
+from ..run_folder import write_arrays
+
+SCALARS = {"pressure": "pressure", "stress": "von_mises_stress", "density": "density"}
+"""Of each particle, by their names in `output.images.color_by`; and those in a Snapshot."""
+
+MOST_UNASKED = 200_000
+"""Particles up to which snapshots are recorded where the scene says nothing of them."""
+
+OVERHEAD = 256
+"""Bytes that an array takes in a file beside its numbers, at most: 128 for its own header, the rest
+for its two entries in the archive."""
+
+
+def wants_snapshots(scene, count: int) -> bool:
+    """What the scene says; by default yes up to MOST_UNASKED particles."""
+    said = scene.output.snapshots
+    return count <= MOST_UNASKED if said is None else said
+
+
+def has_plastic_strain(scene) -> bool:
+    """Whether a body is of a law that adds up plastic strain."""
+    laws = {type(scene.materials[body.material]) for body in scene.bodies}
+    return any(law.plastic_strain is not MaterialLaw.plastic_strain for law in laws)
+
+
+def snapshot_bytes(scene, count: int) -> int:
+    """Bytes of one file, to a few hundred."""
+    scalars = len(SCALARS) + has_plastic_strain(scene)
+    return 4 * count * (2 * scene.dimension + scalars) + OVERHEAD * (4 + scalars)
+
+
+class Snapshots:
+    """A file for each output: time [s], step, position [n, dim] (m), velocity [n, dim] (m/s),
+    pressure, stress (von Mises) [n] (Pa), density [n] (kg/m^3) and, where a law has it, the
+    equivalent plastic_strain [n], in float32 and in the order of the scene; and once
+    particles.npz: body (index) [n], mass [n] (kg), initial_volume [n] (m^dim).
+
+    Each file appears whole.  `mpm_taichi.recording.Recording` reads them."""
+
+    every_steps = None
+
+    def __init__(self, folder: Path, simulation, state: dict | None = None):
+        folder.mkdir(exist_ok=True)
+        self.folder, self.count = folder, 0 if state is None else state["count"]
+        self.names = dict(SCALARS)
+        if has_plastic_strain(simulation.scene):
+            self.names["plastic_strain"] = "plastic_strain"
+        for number, path in numbered(folder):
+            if number >= self.count:
+                path.unlink()
+        bodies = len(simulation.scene.bodies)
+        write_arrays(
+            folder / "particles.npz",
+            body=simulation.body_of_particle.astype(np.min_scalar_type(bodies)),
+            mass=simulation.snapshot.mass.astype(np.float32),
+            initial_volume=simulation.snapshot.initial_volume.astype(np.float32),
+        )
+
+    def record(self, simulation, is_output):
+        if not is_output:
+            return
+        now = simulation.snapshot
+        arrays = {"position": now.position, "velocity": now.velocity}
+        arrays |= {name: getattr(now, source) for name, source in self.names.items()}
+        write_arrays(
+            self.folder / f"snapshot_{self.count:04d}.npz",
+            time=np.float64(now.time),
+            step=np.int64(now.step),
+            **{name: values.astype(np.float32) for name, values in arrays.items()},
+        )
+        self.count += 1
+
+    def state(self) -> dict:
+        return {"count": self.count}
+
+    def close(self):
+        """Files are whole as soon as they are there."""
+
+
+def numbered(folder: Path) -> list[tuple[int, Path]]:
+    """The snapshots in a folder with their numbers, in order."""
+    found = ((path.stem.removeprefix("snapshot_"), path) for path in folder.glob("snapshot_*.npz"))
+    return sorted((int(number), path) for number, path in found if number.isdecimal())
