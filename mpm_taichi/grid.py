@@ -79,6 +79,7 @@ class Grid(NodeLayout):
         # See kernels/blocks.py.
         self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
         self.periodic = tuple(periodic)
+        self.bounded = tuple(axis for axis in range(self.dim) if axis not in self.periodic)
         self.walled = tuple((wall.axis, wall.upper) for wall in walls)
         # Hat functions and modified splines give nothing to the nodes behind a wall.
         mirrors = basis.support > 2 and not basis.modified

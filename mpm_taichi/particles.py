@@ -127,7 +127,8 @@ class Particles:
     deformation, for a body force that depends on it.
 
     `lost` is the least id of a particle outside the domain, `bad` of one whose numbers are none
-    (kernels/guard.py), or the number of particles."""
+    (kernels/guard.py), or the number of particles; `brought_in` counts those that were put back
+    (kernels/outside.py)."""
 
     def __init__(self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None):
         self.dim = bodies[0].x.shape[1]
@@ -149,6 +150,7 @@ class Particles:
         self.id, self.order = fields["id"], fields["order"]
         self.lost: Any = ti.field(int, ())
         self.bad: Any = ti.field(int, ())
+        self.brought_in: Any = ti.field(int, ())
         scratch = {name: fields[name + SCRATCH] for name in ("x", "H", "m", "id", "rows")}
         self.carried = [(fields[name], room, 0) for name, room in scratch.items()]
         self.carried.append((self.V0, scratch["m"], 0))
@@ -207,7 +209,7 @@ class Particles:
     @property
     def stored(self) -> dict[str, Any]:
         """The fields that a checkpoint keeps, by name, as they lie."""
-        names = ["x", "H", "m", "V0", "id", "rows"]
+        names = ["x", "H", "m", "V0", "id", "rows", "brought_in"]
         names += ["X"] * (self.X is not self.x) + ["half_width"] * self.basis.extended
         fields = {name: getattr(self, name) for name in names}
         for number, law in enumerate(self.laws):

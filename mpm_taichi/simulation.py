@@ -90,10 +90,8 @@ class Simulation:
                 f"{self.ranges[-1]} particles and {' x '.join(map(str, scene.domain.cells))} cells "
                 "do not fit into memory: take fewer, larger cells (domain.cells) or fewer particles"
             ) from None
-        self._constant = {
-            "mass": self.solver.particles.to_numpy("m"),
-            "initial_volume": self.solver.particles.to_numpy("V0"),
-        }
+        self.lightest = float(self._constant["mass"].min())
+        self.start_mass = float(self._constant["mass"].sum())
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
         self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
@@ -172,7 +170,7 @@ class Simulation:
         """MotionError where a particle is lost or the step has collapsed, and, looked for now and
         then, where numbers are none."""
         if self.solver.particles.lost[None] < self.ranges[-1]:
-            raise self._lost()
+            self._settle_outside()
         if self.time_step.given is None and self.dt < COLLAPSE * self.first_dt:
             raise MotionError(
                 f"t = {self.time:.6g} s, step {self.step_count}: the time step has fallen from "
@@ -180,6 +178,19 @@ class Simulation:
             )
         if self.step_count - self.guarded >= self.guard_steps:
             self.guard()
+
+    def _settle_outside(self):
+        """What the scene says of particles outside its domain."""
+        rule = self.scene.domain.outside
+        if rule == "stop":
+            raise self._lost()
+        self.guard()  # a position that is no number is nowhere
+        self.solver.bring_in(rule == "delete", 0.5 * self.lightest)
+        self._forget_masses()
+
+    def _forget_masses(self):
+        for name in ("_constant", "body_mass"):
+            self.__dict__.pop(name, None)
 
     def guard(self) -> None:
         """MotionError where a particle's numbers are none, or no longer those of matter."""
@@ -247,6 +258,7 @@ class Simulation:
         self.solver.restore(state["solver"], arrays)
         self.solver.put_pace(self.time_step.pace)
         self._forget_moment()
+        self._forget_masses()
         self.guard()
 
     def shorten_steps(self, reduction: float) -> None:
@@ -266,6 +278,15 @@ class Simulation:
         while not self.is_done:
             if self.advance():
                 yield self
+
+    @cached_property
+    def _constant(self) -> dict[str, np.ndarray]:
+        """What does not change, but where particles are deleted: nothing is left of those."""
+        m, V0 = map(self.solver.particles.to_numpy, ("m", "V0"))
+        if self.scene.domain.outside == "delete" and self.solver.particles.brought_in[None]:
+            gone = m < 0.5 * self.lightest
+            m[gone], V0[gone] = 0.0, 0.0
+        return {"mass": m, "initial_volume": V0}
 
     @cached_property
     def snapshot(self) -> Snapshot:
@@ -303,8 +324,9 @@ class Simulation:
             return self._bad(lost)
         return MotionError(
             f"{self._when(lost)} has left the domain {self.scene.domain.size}: it is at "
-            f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger or give it walls "
-            "(domain.walls; a fast soft body can still be pressed through). If it should not have "
+            f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger, give it walls "
+            "(domain.walls; a fast soft body can still be pressed through), or say what happens to "
+            "such particles (domain.outside: delete or clamp). If it should not have "
             f"moved so: {self._advice()}",
             lost,
             is_exit=True,
@@ -326,6 +348,12 @@ class Simulation:
         cut = self.solver.grid.cut[None]
         if cut:
             found["nodes below the mass cut-off, taken as empty (counted each step)"] = cut
+        brought_in = self.solver.particles.brought_in[None]
+        if brought_in and self.scene.domain.outside == "delete":
+            gone = self.start_mass - float(self.body_mass.sum())
+            found[f"particles deleted at the border of the domain, {gone:.6g} kg"] = brought_in
+        elif brought_in:
+            found["times that a particle was clamped to the border of the domain"] = brought_in
         for law in self.solver.particles.laws:
             for name, words in law.kind.counters.items():
                 count = int(np.nansum(law.state.get_member_field(name).to_numpy(), dtype=float))
@@ -343,7 +371,7 @@ class Simulation:
 
     @cached_property
     def body_mass(self) -> np.ndarray:
-        """Mass of each body [kg], shape [bodies]."""
+        """Mass of each body [kg], shape [bodies], without what was deleted."""
         return np.add.reduceat(self._constant["mass"], self.ranges[:-1])
 
     @cached_property

@@ -29,6 +29,11 @@ class Snapshot:
     spin: np.ndarray  # [n, dim, dim] kg m^2/s
 
     @property
+    def visible_position(self) -> np.ndarray:
+        """[n, dim] m; NaN of particles that were deleted, which have no mass."""
+        return np.where(self.mass[:, None] > 0, self.position, np.nan)
+
+    @property
     def speed(self) -> np.ndarray:
         """[n] m/s."""
         return np.linalg.norm(self.velocity, axis=1)

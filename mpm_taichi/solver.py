@@ -12,6 +12,7 @@ from .kernels.clear import clear
 from .kernels.g2p import g2p
 from .kernels.ghosts import fill_ghosts, fold_ghosts
 from .kernels.grid_update import grid_update
+from .kernels.outside import bring_in
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.sort import sort, take_up
@@ -169,6 +170,12 @@ class Solver:
         self.particles.lost[None] = self.particles.count
         if self.sorts:
             take_up(self.particles, self.grid)
+
+    def bring_in(self, deletes, lightest):
+        """Particles outside the domain: see kernels/outside.py."""
+        bring_in(self.particles, self.grid, deletes, lightest)
+        if deletes:
+            self.drift = inf  # they are far from where the sort has found them
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

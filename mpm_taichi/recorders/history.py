@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .table import Table
 
 
@@ -50,8 +52,9 @@ class History:
             # - sum m g . x, zero at the origin
             "gravitational_energy": -(sums["mass_moment"].sum(axis=0) @ self.gravity),
         }
-        centers = sums["mass_moment"] / mass[:, None]
-        velocities = sums["momentum"] / mass[:, None]
+        with np.errstate(invalid="ignore", divide="ignore"):  # a body may be deleted: NaN
+            centers = sums["mass_moment"] / mass[:, None]
+            velocities = sums["momentum"] / mass[:, None]
         for body, center, velocity in zip(
             simulation.scene.bodies, centers, velocities, strict=True
         ):

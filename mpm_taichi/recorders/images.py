@@ -37,7 +37,7 @@ class Images:
             self.low, self.high = min(self.low, value.min()), max(self.high, value.max())
         edge = snapshot.initial_volume ** (1 / scene.dimension)
         frame = Frame(
-            position=snapshot.position,
+            position=snapshot.visible_position,
             radius=0.5 * edge,
             body=simulation.body_of_particle,
             body_names=[body.name for body in scene.bodies],

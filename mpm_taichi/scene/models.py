@@ -51,6 +51,11 @@ class Domain(Model):
     walls: RuleName | Walls = Field(
         default="none", description="one rule for all sides, or one for each"
     )
+    outside: Literal["stop", "delete", "clamp"] = Field(
+        default="stop",
+        description="what happens to a particle that leaves: the run stops, the particle is "
+        "deleted, or clamped to the border; both are counted",
+    )
 
     @property
     def dimension(self) -> int:
