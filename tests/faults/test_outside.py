@@ -58,7 +58,8 @@ def test_the_box_is_closed_and_ends_there():
     """A particle at exactly 0 or L is inside; one at -1e-18, at the next number after L, or beyond
     all bounds is outside, and is named; none reaches memory that is not the grid's, with the
     stencils of every place around the corners.  Seen in two steps after it was put there."""
-    simulation = Simulation(load_scene(LATTICE, ["bodies[1].velocity=[0, 0]", "method={}"]))
+    still = ("bodies[0].velocity=[0, 0]", "bodies[1].velocity=[0, 0]")
+    simulation = Simulation(load_scene(LATTICE, [*still, "method={}"]))
     state = simulation.state()
     start = {name: field.to_numpy() for name, field in simulation.solver.stored.items()}
     particles = simulation.solver.particles
