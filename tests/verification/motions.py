@@ -8,6 +8,7 @@ from mpm_taichi.particles import BodyPoints
 from mpm_taichi.shapes import Ball
 from mpm_taichi.snapshot import take_snapshot
 from mpm_taichi.solver import Solver
+from mpm_taichi.transfers import FlipPart
 
 JELLY = NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e4, poissons_ratio=0.3)
 
@@ -53,13 +54,16 @@ class Living:
         runtime.start("cpu", "f64", threads=2, **options)
         self.solvers = {}
 
-    def solver(self, x, v, V0, cells, basis, transfer, gravity=None):
+    def solver(
+        self, x, v, V0, cells, basis, transfer, gravity=None, flip_part=None, filter_order=1
+    ):
         key = x.shape, cells, basis, transfer
         if key not in self.solvers:
             self.solvers[key] = solver(x, v, V0, cells, basis, transfer)
         found = self.solvers[key]
         restart(found, x, v, V0)
         found.gravity[None] = list(gravity or [0.0] * x.shape[1])
+        found.flip_part, found.filter_order = flip_part or FlipPart(), filter_order
         found.grid.cut[None] = 0
         return found
 
