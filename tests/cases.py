@@ -1,9 +1,9 @@
 """Every pair of basis and transfer that works together.
 
-CASES has every basis and every kind of transfer in 2D, and the first methods in 3D; KINDS_OF_CASES
-the same with the likes of others in a campaign.  ALL_CASES, for the parity with the twin, has every
-basis and every transfer in 2D, every kind of both in 3D, and all pairs in a campaign.  The methods
-of the first scenes and one of each kind in 2D are in the fast tier."""
+CASES has every kind of basis and of transfer in 2D, and the first methods in 3D.  ALL_CASES, for
+the parity with the twin, has every basis and every transfer in 2D, every kind of both in 3D, and
+all pairs in a campaign.  The methods of the first scenes and one of each kind in 2D are in the fast
+tier."""
 
 import pytest
 
@@ -45,17 +45,14 @@ def _case(dim, basis, transfer, *marks):
     )
 
 
-def _cases(*marks):
-    """The first methods and each kind, and, with these marks, what else there is."""
-    others = [(CubicBSpline, TPIC), (QuadraticBoundary, TPIC)]
-    return [
-        *(_case(2, *pair) for pair in (*FIRST, *KINDS)),
-        *(_case(2, *pair, *marks) for pair in others),
-        *(_case(3, *pair) for pair in FIRST),
-    ]
-
-
-CASES, KINDS_OF_CASES = _cases(), _cases(pytest.mark.campaign)
+CASES = [
+    *(_case(2, *pair) for pair in (*FIRST, *KINDS)),
+    *(
+        _case(2, *pair, pytest.mark.campaign)
+        for pair in ((CubicBSpline, TPIC), (QuadraticBoundary, TPIC))
+    ),
+    *(_case(3, *pair) for pair in FIRST),
+]
 COVER = {2: [*FIRST, *KINDS, *OTHERS[2]], 3: [*FIRST, *OTHERS[3]]}
 ALL_CASES = [
     _case(dim, *pair, *([] if pair in COVER[dim] else [pytest.mark.campaign]))

@@ -9,7 +9,7 @@ import pytest
 from mpm_taichi.bases import GIMP, CubicBSpline, QuadraticBSpline
 from mpm_taichi.transfers import APIC, MLS, TPIC
 
-from ..cases import KINDS_OF_CASES
+from ..cases import CASES
 from ..verification.motions import JELLY, advance, ball_points, restart, solver
 
 CELLS = {2: 16, 3: 10}
@@ -39,7 +39,7 @@ def close(a, b):
     return np.abs(a - b).max() < 1e-11 * max(np.abs(b).max(), 1.0)
 
 
-@pytest.mark.parametrize(("dim", "basis", "transfer"), KINDS_OF_CASES)
+@pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
 def test_mirror_rotation_and_order(exact, rng, dim, basis, transfer):
     """Mirror image in x, turn by 90 degrees (x, y) -> (-y, x) about the middle, cyclic exchange of
     the axes, and the particles in another order."""

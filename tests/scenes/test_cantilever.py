@@ -58,7 +58,10 @@ def test_minimum_on_a_coarse_grid(method):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("transfer", ["{type: apic, force: mls}", "{type: flip}"])
+@pytest.mark.parametrize(
+    "transfer",
+    [pytest.param("{type: apic, force: mls}", marks=pytest.mark.campaign), "{type: flip}"],
+)
 def test_minimum_on_a_finer_grid(transfer):
     """Cells of 0.125 m: depth within 0.5 %, time within 2 %."""
     lowest, time = first_minimum(f"{{basis: quadratic, transfer: {transfer}}}", *FINE)

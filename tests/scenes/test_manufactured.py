@@ -115,6 +115,7 @@ def test_small_amplitude_in_1d_equals_the_published_errors(cells):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_large_amplitude_in_1d_diverges():
     """Expected failure: at A = 0.05 particles cross cells, and hat functions get worse as cells
     shrink: the error with 64 cells is at least 3 times that with 8 (mpmat 3.8; here 3.8)."""

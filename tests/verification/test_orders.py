@@ -79,7 +79,7 @@ def test_second_order_at_rest_and_riding(basis, transfer, update):
 @pytest.mark.parametrize(
     ("transfer", "update", "last"),
     [
-        ("{type: pic}", "usl", (0.6, 0.9)),
+        pytest.param("{type: pic}", "usl", (0.6, 0.9), marks=pytest.mark.campaign),
         ("{type: flip, ratio: 0.99}", "usl", (1.7, 1.85)),
         (APIC, "usf", (0.9, 1.3)),
     ],
