@@ -42,6 +42,13 @@ def add_output(parser: argparse.ArgumentParser, kind: str = "") -> None:
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
+def add_picture(parser: argparse.ArgumentParser, default: str) -> None:
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE.png", help=f"picture; default: {default}"
+    )
+    parser.add_argument("--overwrite", action="store_true", help="replace a picture that is there")
+
+
 def scene_of(options):
     """The scene that the options name and change."""
     from ..scene import load_scene
