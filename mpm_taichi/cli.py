@@ -51,10 +51,10 @@ def parser() -> tuple[argparse.ArgumentParser, list[argparse.ArgumentParser]]:
 
 
 def _with_command(words: list[str], parsers) -> list[str]:
-    """`SCENE ...` and `--options SCENE` become `run ...`."""
+    """`SCENE ...`, `--options SCENE` and `--resume RUN` become `run ...`."""
     first = _first_plain_word(words, parsers)
     if first is None:
-        return words
+        return ["run", *words] if "--resume" in words else words
     word = words[first]
     if word in COMMANDS:
         return [word, *words[:first], *words[first + 1 :]]

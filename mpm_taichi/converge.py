@@ -11,9 +11,10 @@ from rich.console import Console
 from . import run_folder, stages
 from .errors import InputError, RunError
 from .grid_convergence import ROUNDING
+from .interruption import Interrupted, Interruption
+from .progress import Progressing
 from .refinement import refined, refuse
 from .report import versions
-from .run import Interrupted, Interruption, Progressing
 from .scene import Scene, dump_scene
 from .simulation import Simulation
 from .study import Level, Study
@@ -78,7 +79,7 @@ def _run_levels(scenes, simulation, study, folder, options, console) -> tuple[st
 
 
 def _start(scene, options) -> Simulation:
-    return Simulation(scene, options.device, options.precision, options.threads)
+    return Simulation(scene, options.device or "cpu", options.precision, options.threads)
 
 
 def _measure(simulation, level, yardstick, console) -> None:

@@ -7,3 +7,12 @@ class InputError(Exception):
 
 class RunError(Exception):
     """The run started and failed.  Exit code 1."""
+
+
+class MotionError(RunError):
+    """The motion went wrong, and might not with shorter steps.  `particle` is that which showed it,
+    by its place in the scene, or None; `is_exit`: it has left the domain, which may be right."""
+
+    def __init__(self, text: str, particle: int | None = None, is_exit: bool = False):
+        super().__init__(text)
+        self.particle, self.is_exit = particle, is_exit

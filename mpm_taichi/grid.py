@@ -79,6 +79,7 @@ class Grid(NodeLayout):
         # See kernels/blocks.py.
         self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
         self.periodic = tuple(periodic)
+        self.bounded = tuple(axis for axis in range(self.dim) if axis not in self.periodic)
         self.walled = tuple((wall.axis, wall.upper) for wall in walls)
         # Hat functions and modified splines give nothing to the nodes behind a wall.
         mirrors = basis.support > 2 and not basis.modified
@@ -115,6 +116,13 @@ class Grid(NodeLayout):
         self.node_workers = self.workers(self.active_count[None] * CHUNK)
         low, high = self.lowest.to_numpy() - 1, self.highest.to_numpy() + self.support
         self.near_end = (low < self.ghost) | (high > self.ghost + np.array(self.cells))
+
+    @property
+    def stored(self) -> dict[str, Any]:
+        """The fields that a checkpoint keeps, by name: what the last sort has found, and the count
+        of nodes cut.  From them `plan` (kernels/sort.py) makes the rest."""
+        names = ("start", "occupied", "lowest", "highest", "cut")
+        return {f"grid.{name}": getattr(self, name) for name in names}
 
     def workers(self, count):
         """How many share `count` elements."""

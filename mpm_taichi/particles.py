@@ -126,7 +126,9 @@ class Particles:
     half_width [cells] for a basis that takes particles as extended, and X [m], the place before
     deformation, for a body force that depends on it.
 
-    `lost` is the least id of a particle outside the domain, or the number of particles."""
+    `lost` is the least id of a particle outside the domain, `bad` of one whose numbers are none
+    (kernels/guard.py), or the number of particles; `brought_in` counts those that were put back
+    (kernels/outside.py)."""
 
     def __init__(self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None):
         self.dim = bodies[0].x.shape[1]
@@ -147,6 +149,8 @@ class Particles:
         self.m, self.V0 = fields["m"], fields["V0"]
         self.id, self.order = fields["id"], fields["order"]
         self.lost: Any = ti.field(int, ())
+        self.bad: Any = ti.field(int, ())
+        self.brought_in: Any = ti.field(int, ())
         scratch = {name: fields[name + SCRATCH] for name in ("x", "H", "m", "id", "rows")}
         self.carried = [(fields[name], room, 0) for name, room in scratch.items()]
         self.carried.append((self.V0, scratch["m"], 0))
@@ -201,6 +205,18 @@ class Particles:
             rows[:, 0, : self.dim] = m[:, None] * v
             rows[:, 0, self.dim] = m
         return rows
+
+    @property
+    def stored(self) -> dict[str, Any]:
+        """The fields that a checkpoint keeps, by name, as they lie."""
+        names = ["x", "H", "m", "V0", "id", "rows", "brought_in"]
+        names += ["X"] * (self.X is not self.x) + ["half_width"] * self.basis.extended
+        fields = {name: getattr(self, name) for name in names}
+        for number, law in enumerate(self.laws):
+            if law.has_state:
+                for name in law.state.keys:
+                    fields[f"law{number}.{name}"] = law.state.get_member_field(name)
+        return fields
 
     def to_numpy(self, name):
         """A field (`x`, `H`, `m`, `V0`, `rows`) in the order of the scene, float64."""

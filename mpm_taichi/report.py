@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
 from .disk_space import planned_disk
+from .recorders import Errors, History
 
 KEPT = r"mass|(angular_)?momentum(_[xyz])?|(kinetic|elastic|dissipated|gravitational)_energy"
 PACKAGES = ("taichi", "numpy", "gmsh", "meshio", "pydantic")
@@ -16,12 +17,13 @@ PACKAGES = ("taichi", "numpy", "gmsh", "meshio", "pydantic")
 class Report:
     """Grows with the run; `content` is the JSON of the moment."""
 
-    def __init__(self, simulation, command: list[str]):
-        self.simulation, self.command = simulation, command
+    def __init__(self, attempts, command: list[str], before=None):
+        self.attempts, self.command = attempts, command
+        self.before = dict(before or {})
         self.started = time.time()
 
-    def content(self, status: str, history=None, error: str | None = None, errors=None) -> dict:
-        simulation = self.simulation
+    def content(self, status: str, error: str | None = None) -> dict:
+        simulation = self.attempts.simulation
         time_step = simulation.time_step
         result = {
             "status": status,
@@ -29,6 +31,7 @@ class Report:
             "command": self.command,
             "started": time.strftime("%Y-%m-%dT%H:%M:%S%z", time.localtime(self.started)),
             "wall_seconds": time.time() - self.started,
+            "processes_before": self._processes_before(),
             "versions": versions(),
             "machine": platform.platform(),
             "device": simulation.device,
@@ -53,13 +56,26 @@ class Report:
                 "stage_seconds": dict(stages.seconds),
                 "sorts": simulation.solver.sorts,
             },
+            "failures": self.attempts.failures,
             "warnings": simulation.warnings(),
         }
+        if self.attempts.failures:
+            words = "attempts that failed; what followed has shorter steps"
+            result["warnings"][words] = len(self.attempts.failures)
+        history, errors = map(self.attempts.recorder, (History, Errors))
         if history is not None and history.first is not None:
             result["conservation"] = conservation(history.first, history.last)
         if errors is not None:
             result["errors"] = errors.summary()
         return result
+
+    def _processes_before(self) -> list[dict]:
+        """How the run came to where this process took it up, the first one first."""
+        if not self.before:
+            return []
+        kept = ("command", "status", "error", "started", "wall_seconds", "steps", "failures")
+        last = {name: self.before.get(name) for name in kept}
+        return [*self.before.get("processes_before", []), last]
 
 
 def versions() -> dict[str, str | None]:

@@ -2,7 +2,7 @@
 
 from math import ceil
 
-from .errors import InputError, RunError
+from .errors import InputError, MotionError
 
 MOST = 2**53
 """Steps or outputs: a clock of 53 bits counts no more."""
@@ -25,9 +25,9 @@ class EverySeconds:
 def even_step(remaining: float, longest: float) -> float:
     """The longest step up to `longest` of which a whole number makes up `remaining` [s].
 
-    RunError where `longest` is too short to advance the clock, or no number."""
+    MotionError where `longest` is too short to advance the clock, or no number."""
     if not remaining < MOST * longest:
-        raise RunError(
+        raise MotionError(
             f"the time step would be {longest:.3g} s, too short to get to the next output in "
             f"{remaining:.3g} s: the run has blown up, or the scene asks for such steps"
         )

@@ -2,21 +2,24 @@
 
 import os
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from . import runtime, stages
-from .errors import InputError, RunError
+from .bodies import body_points
+from .errors import InputError, MotionError
+from .kernels.guard import guard
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
 from .memory import planned_memory, refuse_too_much
-from .particles import BodyPoints
 from .scene import Scene
 from .schedules import EverySeconds, even_step
-from .seeding import expected_counts, refuse_outside, seed
+from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
 from .time_step import TimeStep
+from .trouble import fault, in_words, particle_values
 
 PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
@@ -29,33 +32,14 @@ MOST_TOGETHER = 64
 PARTICLE_STEPS = 100_000
 """Of one launch, some 10 ms: a signal waits for its end."""
 
+GUARD_STEPS = 32
+"""At most, between two looks at all particles (kernels/guard.py), which so cost 1 % of the run."""
 
-def body_points(scene, index, X, V0) -> BodyPoints:
-    """The particles of a body at the start: X [n, dim] (m) are their places before the displacement
-    that the scene gives, V0 [n] their volumes."""
-    body = scene.bodies[index]
-    material, still = scene.materials[body.material], [0.0] * scene.dimension
-    x, H = X, None
-    if body.displacement is not None:
-        u = scene.field(body.displacement)
-        x, H = X + u.value(X), u.gradient(X)
-        refuse_outside(x, f"bodies[{index}].displacement", body.name, scene.domain)
-    velocity = scene.field(body.velocity or still)
-    v, L = velocity.value(X), velocity.gradient(X)
-    for key, values in (("velocity", v), ("displacement", x)):
-        if not np.isfinite(values).all():
-            bad = X[~np.isfinite(values).all(axis=1)][0].tolist()
-            raise InputError(f"bodies[{index}].{key} ({body.name}): is no number at {bad}")
-    if H is not None:
-        F = H + np.eye(scene.dimension)
-        folded = ~(np.linalg.det(F) > 0)
-        if folded.any():
-            raise InputError(
-                f"bodies[{index}].displacement ({body.name}): turns the material inside out at "
-                f"{X[folded][0].tolist()}, where det(I + grad u) is not above 0"
-            )
-        L = L @ np.linalg.inv(F)
-    return BodyPoints(material, x, v, V0, X, H, L if L.any() else None)
+COLLAPSE = 1e-6
+"""An automatic step shorter than this part of the first one ends the run."""
+
+CLOCK = ("time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started")
+"""Of a Simulation, in a checkpoint."""
 
 
 class Simulation:
@@ -63,10 +47,14 @@ class Simulation:
     Taichi has one set of fields.
 
     `threads` workers on a CPU; by default what the size of the scene is worth.  The result does
-    not depend on it, to the last bit.  Few particles take whole steps on one of them."""
+    not depend on it, to the last bit.  Few particles take whole steps on one of them.
 
-    def __init__(self, scene: Scene, device="cpu", precision=None, threads=None):
-        self.scene, self.device = scene, device
+    `reduction` shortens all steps."""
+
+    def __init__(
+        self, scene: Scene, device="cpu", precision=None, threads=None, reduction: float = 1.0
+    ):
+        self.scene, self.device, self.threads_asked = scene, device, threads
         self.precision = precision or scene.method.precision or runtime.default_precision(device)
         runtime.stop()
         refuse_too_much(scene, expected_counts(scene), device, self.precision)
@@ -87,6 +75,7 @@ class Simulation:
         method = scene.method
         given = None if scene.time.step == "auto" else scene.time.step
         self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
+        self.time_step.reduction = reduction
         try:
             self.solver = Solver(
                 bodies, scene.domain.cells, scene.cell_size, method.basis_class,
@@ -101,16 +90,18 @@ class Simulation:
                 f"{self.ranges[-1]} particles and {' x '.join(map(str, scene.domain.cells))} cells "
                 "do not fit into memory: take fewer, larger cells (domain.cells) or fewer particles"
             ) from None
-        self._constant = {
-            "mass": self.solver.particles.to_numpy("m"),
-            "initial_volume": self.solver.particles.to_numpy("V0"),
-        }
+        self.lightest = float(self._constant["mass"].min())
+        self.start_mass = float(self._constant["mass"].sum())
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
         self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
         self.limit = self.time_step.limits(self.start_speed)[0]
         self.last_dt = 0.0
         self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
+        self.first_dt = self.dt
+        self.guard_steps, self.guarded = GUARD_STEPS, 0
+        self.is_started = False  # recorders have seen the start
+        self.stop_asked = False  # `advance` returns after the step or launch that it is at
         self.solver.start(self.dt)
 
     def _half_width(self, bodies):
@@ -164,11 +155,50 @@ class Simulation:
         before, landing = self.step_count, False
         while not landing and self.step_count - before < most:
             landing = take(most - (self.step_count - before))
-            self.__dict__.pop("snapshot", None)
-            self.__dict__.pop("sums", None)
-            self._stop_if_lost()
+            self._forget_moment()
+            self._look_after()
             self.output_count += landing
+            if self.stop_asked:
+                break
         return landing
+
+    def _forget_moment(self):
+        self.__dict__.pop("snapshot", None)
+        self.__dict__.pop("sums", None)
+
+    def _look_after(self):
+        """MotionError where a particle is lost or the step has collapsed, and, looked for now and
+        then, where numbers are none."""
+        if self.solver.particles.lost[None] < self.ranges[-1]:
+            self._settle_outside()
+        if self.time_step.given is None and self.dt < COLLAPSE * self.first_dt:
+            raise MotionError(
+                f"t = {self.time:.6g} s, step {self.step_count}: the time step has fallen from "
+                f"{self.first_dt:.3g} to {self.dt:.3g} s: the run has blown up"
+            )
+        if self.step_count - self.guarded >= self.guard_steps:
+            self.guard()
+
+    def _settle_outside(self):
+        """What the scene says of particles outside its domain."""
+        rule = self.scene.domain.outside
+        if rule == "stop":
+            raise self._lost()
+        self.guard()  # a position that is no number is nowhere
+        self.solver.bring_in(rule == "delete", 0.5 * self.lightest)
+        self._forget_masses()
+
+    def _forget_masses(self):
+        for name in ("_constant", "body_mass"):
+            self.__dict__.pop(name, None)
+
+    def guard(self) -> None:
+        """MotionError where a particle's numbers are none, or no longer those of matter."""
+        self.guarded = self.step_count
+        guard(self.solver.particles)
+        bad = self.solver.particles.bad[None]
+        if bad < self.ranges[-1]:
+            raise self._bad(bad)
 
     def _take_step(self, _most) -> bool:
         dt = self.dt
@@ -188,7 +218,8 @@ class Simulation:
             self.time_step.last, self.solver.drift,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
-        self.solver.take_whole_steps(clock, int(min(most, MOST_TOGETHER, patience)))
+        together = min(most, MOST_TOGETHER, patience, self.guard_steps)
+        self.solver.take_whole_steps(clock, int(together))
         self.dt, self.time_step.last = clock.dt, clock.last
         self._note_steps(clock.time, clock.lengths.tolist())
         landing = clock.time == self.next_output
@@ -204,12 +235,36 @@ class Simulation:
     def run(self, recorders=()) -> None:
         """Step to the end.  Each recorder sees the start, every output and every step; one that has
         `every_steps` at least those that it divides, or none between outputs if it is None."""
-        for recorder in recorders:
-            recorder.record(self, is_output=True)
+        if not self.is_started:
+            self.is_started = True
+            for recorder in recorders:
+                recorder.record(self, is_output=True)
         while not self.is_done:
             landed = self.advance(self._steps_to_next_record(recorders))
             for recorder in recorders:
                 recorder.record(self, is_output=landed)
+
+    def state(self) -> dict[str, Any]:
+        """The numbers of a checkpoint; its fields are `solver.stored`."""
+        clock = {name: getattr(self, name) for name in CLOCK}
+        parts = {"time_step": self.time_step.state(), "solver": self.solver.state()}
+        return clock | parts
+
+    def restore(self, state: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
+        """Go on from a checkpoint of the same scene, version and precision."""
+        for name in CLOCK:
+            setattr(self, name, state[name])
+        self.time_step.restore(state["time_step"])
+        self.solver.restore(state["solver"], arrays)
+        self.solver.put_pace(self.time_step.pace)
+        self._forget_moment()
+        self._forget_masses()
+        self.guard()
+
+    def shorten_steps(self, reduction: float) -> None:
+        """From the second one on: the impulse of the first is with the particles already."""
+        self.time_step.reduction = reduction
+        self.solver.put_pace(self.time_step.pace)
 
     def _steps_to_next_record(self, recorders):
         if self.step_count == 0:  # the first step compiles
@@ -225,6 +280,15 @@ class Simulation:
                 yield self
 
     @cached_property
+    def _constant(self) -> dict[str, np.ndarray]:
+        """What does not change, but where particles are deleted: nothing is left of those."""
+        m, V0 = map(self.solver.particles.to_numpy, ("m", "V0"))
+        if self.scene.domain.outside == "delete" and self.solver.particles.brought_in[None]:
+            gone = m < 0.5 * self.lightest
+            m[gone], V0[gone] = 0.0, 0.0
+        return {"mass": m, "initial_volume": V0}
+
+    @cached_property
     def snapshot(self) -> Snapshot:
         """The particles now; computed once a step at most."""
         with np.errstate(all="ignore"):  # what is no number is told below, in words
@@ -232,11 +296,7 @@ class Simulation:
         finite = np.isfinite(snapshot.position) & np.isfinite(snapshot.velocity)
         finite = finite.all(axis=1) & np.isfinite(snapshot.energy_density)
         if not finite.all():
-            first = int(np.flatnonzero(~finite)[0])
-            raise RunError(
-                f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(first)} "
-                f"has a position, velocity or energy that is no number. {self._advice()}"
-            )
+            raise self._bad(int(np.flatnonzero(~finite)[0]))
         return snapshot
 
     @cached_property
@@ -250,24 +310,34 @@ class Simulation:
             _ = self.snapshot  # names the particle that is no number
         return found
 
-    def _stop_if_lost(self):
+    def _bad(self, particle) -> MotionError:
+        values = particle_values(self.solver, particle)
+        return MotionError(
+            f"{self._when(particle)} {fault(values)} ({in_words(values)}). {self._advice()}",
+            particle,
+        )
+
+    def _lost(self) -> MotionError:
         lost = self.solver.particles.lost[None]
-        if lost < self.ranges[-1]:
-            x = self.solver.particles.to_numpy("x")[lost]
-            when = f"t = {self.time:.6g} s, step {self.step_count}"
-            who = f"{when}: {self.describe_particle(lost)}"
-            if not np.isfinite(x).all():
-                raise RunError(f"{who} has a position that is no number. {self._advice()}")
-            raise RunError(
-                f"{who} has left the domain {self.scene.domain.size}: it is at "
-                f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger or give it "
-                "walls (domain.walls; a fast soft body can still be pressed through), or, if it "
-                f"should not have moved so: {self._advice()}"
-            )
+        x = self.solver.particles.to_numpy("x")[lost]
+        if not np.isfinite(x).all():
+            return self._bad(lost)
+        return MotionError(
+            f"{self._when(lost)} has left the domain {self.scene.domain.size}: it is at "
+            f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger, give it walls "
+            "(domain.walls; a fast soft body can still be pressed through), or say what happens to "
+            "such particles (domain.outside: delete or clamp). If it should not have "
+            f"moved so: {self._advice()}",
+            lost,
+            is_exit=True,
+        )
+
+    def _when(self, particle):
+        return f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(particle)}"
 
     def _advice(self):
         return (
-            f"a shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
+            f"A shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
             f"{self.limit.name} limit at the start is {self.limit.seconds:.3g} s "
             f"({self.limit.cause})."
         )
@@ -278,6 +348,12 @@ class Simulation:
         cut = self.solver.grid.cut[None]
         if cut:
             found["nodes below the mass cut-off, taken as empty (counted each step)"] = cut
+        brought_in = self.solver.particles.brought_in[None]
+        if brought_in and self.scene.domain.outside == "delete":
+            gone = self.start_mass - float(self.body_mass.sum())
+            found[f"particles deleted at the border of the domain, {gone:.6g} kg"] = brought_in
+        elif brought_in:
+            found["times that a particle was clamped to the border of the domain"] = brought_in
         for law in self.solver.particles.laws:
             for name, words in law.kind.counters.items():
                 count = int(np.nansum(law.state.get_member_field(name).to_numpy(), dtype=float))
@@ -295,7 +371,7 @@ class Simulation:
 
     @cached_property
     def body_mass(self) -> np.ndarray:
-        """Mass of each body [kg], shape [bodies]."""
+        """Mass of each body [kg], shape [bodies], without what was deleted."""
         return np.add.reduceat(self._constant["mass"], self.ranges[:-1])
 
     @cached_property

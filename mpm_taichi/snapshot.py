@@ -1,6 +1,7 @@
 """All that a run shows of one moment, in the order of the scene and in float64."""
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -29,9 +30,14 @@ class Snapshot:
     spin: np.ndarray  # [n, dim, dim] kg m^2/s
 
     @property
+    def visible_position(self) -> np.ndarray:
+        """[n, dim] m; NaN of particles that were deleted, which have no mass."""
+        return np.where(self.mass[:, None] > 0, self.position, np.nan)
+
+    @property
     def speed(self) -> np.ndarray:
         """[n] m/s."""
-        return np.linalg.norm(self.velocity, axis=1)
+        return np.sqrt((self.velocity**2).sum(axis=1))
 
     @property
     def density(self) -> np.ndarray:
@@ -41,13 +47,17 @@ class Snapshot:
     @property
     def pressure(self) -> np.ndarray:
         """- tr(sigma) / 3 [n] Pa."""
-        return -np.trace(self.cauchy_stress, axis1=1, axis2=2) / 3
+        sigma = self.cauchy_stress
+        return -(sigma[:, 0, 0] + sigma[:, 1, 1] + sigma[:, 2, 2]) / 3
 
     @property
     def von_mises_stress(self) -> np.ndarray:
         """sqrt(3/2 dev(sigma) : dev(sigma)) [n] Pa."""
-        deviator = self.cauchy_stress + self.pressure[:, None, None] * np.eye(3)
-        return np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2)))
+        sigma = self.cauchy_stress
+        xx, yy, zz = (sigma[:, d, d] for d in range(3))
+        normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+        shear = sigma[:, 0, 1] ** 2 + sigma[:, 1, 2] ** 2 + sigma[:, 0, 2] ** 2
+        return np.sqrt(0.5 * normal + 3 * shear)
 
 
 def host_bytes(dim: int, real: int) -> int:
@@ -73,35 +83,33 @@ def take_snapshot(solver, constant: dict[str, np.ndarray], time: float, step: in
     whole = {name: np.zeros((n, *size)) for name, size in sizes.items()}
     for begin in range(0, n, BLOCK):
         part = slice(begin, begin + BLOCK)
-        of_part = {name: value[part].astype(float) for name, value in values.items()}
-        for name, value in _derived(solver, of_part).items():
-            whole[name][part] = value
+        _fill(
+            {name: value[part] for name, value in whole.items()},
+            {name: value[part].astype(float, copy=False) for name, value in values.items()},
+            solver,
+        )
     return Snapshot(time=time, step=step, **whole, **constant)
 
 
-def _derived(solver, values):
-    """What a Snapshot has of some particles."""
+def _fill(whole, values, solver):
+    """What a Snapshot has of some particles; `whole` is 0 before."""
     grid, dim = solver.grid, solver.grid.dim
-    F = values["H"] + np.eye(dim)
-    sigma = np.zeros((len(F), 3, 3))
-    sigma[:, :dim, :dim] = values["tau"]
+    for name, letter in (
+        ("position", "x"), ("velocity", "v"), ("deformation_gradient", "H"),
+        ("energy_density", "psi"), ("volume_ratio", "J"), ("plastic_strain", "plastic_strain"),
+    ):  # fmt: skip
+        whole[name][:] = values[letter]
+    for d in range(dim):
+        whole["deformation_gradient"][:, d, d] += 1
+    sigma, J = whole["cauchy_stress"], values["J"]
+    np.divide(values["tau"], J[:, None, None], out=sigma[:, :dim, :dim])
     if dim == 2:
-        sigma[:, 2, 2] = values["tau_zz"]
-    sigma /= values["J"][:, None, None]
-    derived = {
-        "position": values["x"],
-        "velocity": values["v"],
-        "deformation_gradient": F,
-        "cauchy_stress": sigma,
-        "energy_density": values["psi"],
-        "volume_ratio": values["J"],
-        "plastic_strain": values["plastic_strain"],
-    }
+        np.divide(values["tau_zz"], J, out=sigma[:, 2, 2])
     if solver.transfer.affine:
         # A = m C, in the MLS form (where D is one number) plus a symmetric stress: no skew part.
-        D = values["D"]
+        D, A = grid.dx**2 * values["D"], values["A"]
         if solver.transfer.moments:
-            D = np.full_like(D, 1 / (solver.basis.inverse_moment or 1.0))
-        moments = grid.dx**2 * D[:, :, None] * values["A"].swapaxes(1, 2)
-        derived["spin"] = 0.5 * (moments - moments.swapaxes(1, 2))
-    return derived
+            D = np.full_like(D, grid.dx**2 / (solver.basis.inverse_moment or 1.0))
+        for d, e in combinations(range(dim), 2):
+            spin = 0.5 * (D[:, d] * A[:, e, d] - D[:, e] * A[:, d, e])
+            whole["spin"][:, d, e], whole["spin"][:, e, d] = spin, -spin

@@ -1,6 +1,7 @@
 """The step: the table of contents of the method."""
 
 from math import inf, sqrt
+from typing import Any
 
 import numpy as np
 import taichi as ti
@@ -11,9 +12,10 @@ from .kernels.clear import clear
 from .kernels.g2p import g2p
 from .kernels.ghosts import fill_ghosts, fold_ghosts
 from .kernels.grid_update import grid_update
+from .kernels.outside import bring_in
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
-from .kernels.sort import sort
+from .kernels.sort import sort, take_up
 from .kernels.start_moments import start_moments
 from .kernels.update_stress import update_stress
 from .kernels.whole_steps import Clock, whole_steps
@@ -62,7 +64,9 @@ class Solver:
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
         if self.is_whole:
-            self.pace = self._pace_field(pace)
+            numbers = dict.fromkeys(self._of_pace(pace), ti.f64)  # f64 in every run
+            self.pace: Any = ti.Struct.field(numbers, shape=())
+            self.put_pace(pace)
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -78,16 +82,18 @@ class Solver:
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
 
-    def _pace_field(self, pace):
-        """The rule on the device, with the FLIP part of a blend; f64 in every run."""
-        numbers = pace._asdict() | {
+    def _of_pace(self, pace):
+        """The rule on the device, with the FLIP part of a blend."""
+        return pace._asdict() | {
             "flip_ratio": self.flip_part.ratio,
             "flip_rate": self.flip_part.rate,
         }
-        field = ti.Struct.field(dict.fromkeys(numbers, ti.f64), shape=())
-        for name, number in numbers.items():
-            field[None][name] = number
-        return field
+
+    def put_pace(self, pace):
+        """The rule of the steps to come, for those that the device chooses."""
+        if self.is_whole:
+            for name, number in self._of_pace(pace).items():
+                self.pace[None][name] = number
 
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
@@ -145,6 +151,31 @@ class Solver:
             self.body_force, self.pace, clock, most,
         )  # fmt: skip
         self.drift = clock.drift
+
+    @property
+    def stored(self) -> dict[str, Any]:
+        """The fields that a checkpoint keeps, by name."""
+        return self.particles.stored | self.grid.stored
+
+    def state(self) -> dict[str, Any]:
+        """The numbers that belong to them."""
+        return {"drift": self.drift, "sorts": self.sorts}
+
+    def restore(self, state: dict[str, Any], arrays) -> None:
+        """Go on from fields and numbers of before: on a CPU as if never interrupted, to the last
+        bit."""
+        for name, field in self.stored.items():
+            field.from_numpy(arrays[name])
+        self.drift, self.sorts = state["drift"], state["sorts"]
+        self.particles.lost[None] = self.particles.count
+        if self.sorts:
+            take_up(self.particles, self.grid)
+
+    def bring_in(self, deletes, lightest):
+        """Particles outside the domain: see kernels/outside.py."""
+        bring_in(self.particles, self.grid, deletes, lightest)
+        if deletes:
+            self.drift = inf  # they are far from where the sort has found them
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

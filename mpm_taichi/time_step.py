@@ -10,7 +10,7 @@ Limits from numerics.md, chapters 4 and 5, each for the undeformed material and 
 """
 
 from math import hypot, inf, sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 GROWTH = 1.02
 """The length that an automatic step may have shrinks at once and grows by at most this factor from
@@ -68,15 +68,21 @@ def limits(materials, basis, transfer, dx, gravity, speed, half_width) -> list[L
     return sorted(found, key=lambda limit: limit.seconds)
 
 
+KEPT = ("last", "shortest", "longest", "too_long", "reduction")
+"""Of a TimeStep, in a checkpoint."""
+
+
 class TimeStep:
     """Chooses the length of each step: as given, or `safety` times the shortest limit.
 
-    half_width [cells]: of the smallest particle, which a basis may take as extended."""
+    half_width [cells]: of the smallest particle, which a basis may take as extended.  `reduction`
+    shortens all of them, after an attempt that has failed."""
 
     def __init__(self, scene, given, safety, half_width=0.25):
         self.scene, self.given, self.safety, self.half_width = scene, given, safety, half_width
         self.last = inf
         self.shortest, self.longest, self.too_long = inf, 0.0, 0
+        self.reduction = 1.0  # after a failed attempt
 
     def limits(self, speed):
         """All limits at the largest speed [m/s], of the materials that bodies have."""
@@ -95,15 +101,17 @@ class TimeStep:
         acoustic = 0.9 * self.scene.method.basis_class.bulk_limit * dx
         wave_speed = max(acoustic / limit.seconds for limit in at_rest if limit.name == "acoustic")
         return Pace(
-            given=self.given or 0.0, safety=self.safety, acoustic=acoustic, wave_speed=wave_speed,
+            given=self.reduction * (self.given or 0.0), safety=self.reduction * self.safety,
+            acoustic=acoustic, wave_speed=wave_speed,
             travel=0.5 * dx, constant=min(fixed, default=HUGE), growth=GROWTH,
         )  # fmt: skip
 
     def choose(self, speed: float) -> float:
         """The longest step [s] that may be taken at the largest speed [m/s]."""
         if self.given is not None:
-            return self.given
-        self.last = min(self.safety * self.limits(speed)[0].seconds, GROWTH * self.last)
+            return self.reduction * self.given
+        safe = self.reduction * self.safety * self.limits(speed)[0].seconds
+        self.last = min(safe, GROWTH * self.last)
         return self.last
 
     def describe(self, speed: float, dt: float) -> list[str]:
@@ -126,6 +134,14 @@ class TimeStep:
                 "that of a filled body"
             )
         return lines
+
+    def state(self) -> dict[str, Any]:
+        """What the steps to come depend on, and what is told of those taken."""
+        return {name: getattr(self, name) for name in KEPT}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        for name in KEPT:
+            setattr(self, name, state[name])
 
     def note(self, dt: float, limit: Limit) -> None:
         """Remember a step that was taken, and whether, being given, it exceeds the limit at the

@@ -1,8 +1,9 @@
 """Every pair of basis and transfer that works together.
 
-CASES has every basis and every kind of transfer in 2D, the first methods in 3D; ALL_CASES, for the
-parity with the twin, every basis and every transfer in 2D and 3D, and all pairs in a campaign.  The
-methods of the first scenes and one of each kind in 2D are in the fast tier."""
+CASES has every kind of basis and of transfer in 2D, and the first methods in 3D.  ALL_CASES, for
+the parity with the twin, has every basis and every transfer in 2D, every kind of both in 3D, and
+all pairs in a campaign.  The methods of the first scenes and one of each kind in 2D are in the fast
+tier."""
 
 import pytest
 
@@ -27,32 +28,35 @@ def works(basis, transfer):
 
 FIRST = [(Linear, FLIP), (QuadraticBSpline, MLS)]
 KINDS = [(QuadraticBSpline, XPIC), (QuadraticBSpline, APIC), (GIMP, TPIC), (CubicBoundary, TPIC)]
-LIKE_OTHERS = [
-    (QuadraticBSpline, PIC), (QuadraticBSpline, FLIP), (QuadraticBSpline, FLIPBlend),
-    (QuadraticBSpline, TPIC), (QuadraticBoundary, TPIC), (CubicBoundary, TPIC), (Linear, TPIC),
-]  # fmt: skip
-"""In 3D these differ from others of the suite in one part that does not depend on dimension."""
+OTHERS = {
+    2: [(CubicBSpline, PIC), (QuadraticBoundary, FLIPBlend)],
+    3: [(Linear, XPIC), (GIMP, APIC), (CubicBSpline, TPIC)],
+}
+"""With the first and the kinds in 2D, and with the first in 3D, each basis and each transfer."""
 PAIRS = [(basis, transfer) for basis in BASES for transfer in TRANSFERS if works(basis, transfer)]
-EACH = [
-    (basis, transfer)
-    for basis, transfer in PAIRS
-    if basis is QuadraticBSpline or transfer is TPIC or (basis, transfer) in FIRST
-]
 
 
-def _case(dim, basis, transfer):
+def _case(dim, basis, transfer, *marks):
     pair = (basis, transfer)
-    marks = []
     if not (pair in FIRST or (dim == 2 and pair in KINDS)):
-        marks = [pytest.mark.slow]
-    if pair not in EACH or (dim == 3 and pair in LIKE_OTHERS):
-        marks.append(pytest.mark.campaign)
+        marks = (pytest.mark.slow, *marks)
     return pytest.param(
         dim, basis, transfer, id=f"{dim}D-{basis.name}-{transfer.__name__}", marks=marks
     )
 
 
-SOME = [*FIRST, *KINDS, (CubicBSpline, TPIC), (QuadraticBoundary, TPIC)]
-CASES = [_case(2, *pair) for pair in SOME] + [_case(3, *pair) for pair in FIRST]
-ALL_CASES = [_case(2, *pair) for pair in PAIRS] + [_case(3, *pair) for pair in EACH]
+CASES = [
+    *(_case(2, *pair) for pair in (*FIRST, *KINDS)),
+    *(
+        _case(2, *pair, pytest.mark.campaign)
+        for pair in ((CubicBSpline, TPIC), (QuadraticBoundary, TPIC))
+    ),
+    *(_case(3, *pair) for pair in FIRST),
+]
+COVER = {2: [*FIRST, *KINDS, *OTHERS[2]], 3: [*FIRST, *OTHERS[3]]}
+ALL_CASES = [
+    _case(dim, *pair, *([] if pair in COVER[dim] else [pytest.mark.campaign]))
+    for dim in (2, 3)
+    for pair in PAIRS
+]
 """(dim, basis, transfer), for `pytest.mark.parametrize`."""

@@ -27,6 +27,10 @@ def mpm_taichi(*arguments, cwd=None, **changes: str) -> subprocess.CompletedProc
     )
 
 
+def in_words(text: str) -> bool:
+    return bool(text.strip()) and "Traceback" not in text
+
+
 def history(folder: Path) -> dict[str, np.ndarray]:
     """The columns of history.csv."""
     with (folder / "history.csv").open(newline="") as file:

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import taichi as ti
+from taichi.lang import impl
 
 from mpm_taichi import runtime
 from mpm_taichi.kernels.follow import follow
@@ -46,7 +46,7 @@ VISCOUS = [
     Gas(type="gas", density=1.0, pressure=MODULUS),
 ]
 ROOM = 384
-"""Particles of every call: of one size, Taichi compiles a law once."""
+"""Particles that a call can follow."""
 
 DX = 0.1
 
@@ -57,15 +57,43 @@ def response(material, F, precision="f64"):
     return SimpleNamespace(**{name: values[0] for name, values in vars(found).items()})
 
 
+class Compiled:
+    """A group of ROOM particles for each law and dimension, of the Taichi that runs now: all
+    materials of a law share a kernel."""
+
+    def __init__(self):
+        self.precision, self.runtime, self.groups = "", None, {}
+
+    def group(self, material, dim, precision):
+        """Of fresh particles of the material.  Taichi starts anew only for another precision, or
+        where another test has started it.  In f64 its own optimization is off, which takes most of
+        the time of compiling a law."""
+        if precision != self.precision or self.runtime is not impl.get_runtime():
+            optimized = precision == "f32"
+            runtime.start(
+                "cpu", precision, threads=2, fast_math=False, advanced_optimization=optimized
+            )
+            self.precision, self.runtime, self.groups = precision, impl.get_runtime(), {}
+        key, still = (type(material), dim), np.zeros((ROOM, dim, dim))
+        if key not in self.groups:
+            (self.groups[key],) = groups_of([material], dim, DX, [still])
+        law = self.groups[key].law
+        for name, number in material.constants(DX).items():
+            law.constants[0][name] = number
+        for name, values in material.start(still).items():
+            law.state.get_member_field(name).from_numpy(values)
+        return self.groups[key]
+
+
+COMPILED = Compiled()
+
+
 def followed(material, rates, dt=1.0, precision="f64"):
     """What `follow` gives for velocity gradients [steps, n, dim, dim] from a fresh state, and the
-    counts of the law.  Taichi starts anew: its cache knows kernels by the fields made before."""
-    runtime.start("cpu", precision, threads=2, fast_math=False)
+    counts of the law."""
     steps, n, dim = rates.shape[:3]
-    (group,) = groups_of([material], dim, DX, [np.zeros((ROOM, dim, dim))])
-    room = np.zeros((steps, ROOM, dim, dim), ti.field(float, ()).to_numpy().dtype)
-    room[:, :n] = rates
-    found = {name: values[:, :n] for name, values in follow(group, room, dt).items()}
+    group = COMPILED.group(material, dim, precision)
+    found = follow(group, rates.astype(runtime.real_type()), dt)
     counts = {
         name: np.broadcast_to(group.law.state.get_member_field(name).to_numpy()[:n], (steps, n))
         for name in material.counters

@@ -14,8 +14,9 @@ from tests.command_line import SCENES
 
 
 def write_run(folder: Path, scene: str, changes, position, scalars=None, every=0.1) -> Path:
-    """Positions [frames, n, dim] every `every` seconds, with the velocities of their differences;
-    scalars [frames, n] by name, 0 unless given; bodies take turns."""
+    """Positions [frames, n, dim] every `every` seconds, NaN of a particle that was deleted, with
+    the velocities of their differences; scalars [frames, n] by name, 0 unless given; bodies take
+    turns."""
     folder.mkdir(parents=True)
     experiment = load_scene(SCENES / f"{scene}.yaml", changes)
     (folder / "scene.yaml").write_text(dump_scene(experiment), encoding="utf-8")
@@ -25,6 +26,7 @@ def write_run(folder: Path, scene: str, changes, position, scalars=None, every=0
     frames, n = position.shape[:2]
     times = every * np.arange(frames)
     velocity = np.gradient(position, every, axis=0) if frames > 1 else 0 * position
+    velocity = np.nan_to_num(velocity)
     mass = np.linspace(1, 2, n)
     scalars = dict.fromkeys(SCALARS, np.zeros((frames, n))) | (scalars or {})
     (folder / "snapshots").mkdir()

@@ -6,9 +6,23 @@
 
 Modules import at their top only what takes no time."""
 
-from . import advise, check, converge, curve, export, materials, run, schema
+from . import (
+    advise,
+    check,
+    compare,
+    converge,
+    curve,
+    export,
+    materials,
+    plot,
+    replay,
+    run,
+    schema,
+)
 
 COMMANDS = {
     module.__name__.rpartition(".")[2]: module
-    for module in (run, check, export, converge, advise, materials, curve, schema)
-}
+    for module in (
+        run, replay, check, export, plot, compare, converge, advise, materials, curve, schema,
+    )
+}  # fmt: skip

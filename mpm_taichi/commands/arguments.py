@@ -5,8 +5,9 @@ from math import nan
 from pathlib import Path
 
 
-def add_scene(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("scene", type=Path, help="scene file (YAML)")
+def add_scene(parser: argparse.ArgumentParser, required: bool = True) -> None:
+    nargs = None if required else "?"
+    parser.add_argument("scene", type=Path, nargs=nargs, help="scene file (YAML)")
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE",
         help="change a value of the scene: --set bodies[0].velocity=[0,1]",
@@ -14,7 +15,7 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
 
 
 def add_machine(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--device", choices=("cpu", "cuda", "vulkan", "metal"), default="cpu")
+    parser.add_argument("--device", choices=("cpu", "cuda", "vulkan", "metal"), help="default: cpu")
     parser.add_argument(
         "--precision", choices=("f32", "f64"),
         help="default: the scene's, else f64 on cpu and cuda, f32 on vulkan and metal",
@@ -39,6 +40,13 @@ def add_output(parser: argparse.ArgumentParser, kind: str = "") -> None:
         "--overwrite", action="store_true", help="replace the results that are in -o DIR"
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
+
+
+def add_picture(parser: argparse.ArgumentParser, default: str) -> None:
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE.png", help=f"picture; default: {default}"
+    )
+    parser.add_argument("--overwrite", action="store_true", help="replace a picture that is there")
 
 
 def scene_of(options):

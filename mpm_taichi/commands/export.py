@@ -6,7 +6,8 @@ from pathlib import Path
 from ..errors import InputError
 from .arguments import number, positive
 
-KINDS = ("html", "mp4", "gif", "webp", "vtk")
+VIDEOS = ("mp4", "gif", "webp")
+KINDS = ("html", *VIDEOS, "vtk")
 """The flags, each of which makes something."""
 
 HERE = Path()
@@ -33,7 +34,7 @@ def add(parser) -> None:
         help="the recorded particles for ParaView: RUN/paraview/particles.pvd",
     )  # fmt: skip
     parser.add_argument(
-        "--fps", type=_fps, default=25.0, metavar="F", help="pictures a second; default: 25"
+        "--fps", type=_fps, metavar="F", help="pictures a second of a video; default: 25"
     )
     parser.add_argument("--overwrite", action="store_true", help="replace files that are there")
 
@@ -41,19 +42,21 @@ def add(parser) -> None:
 def execute(options) -> int:
     if not any(getattr(options, kind) for kind in KINDS):
         raise InputError(f"export: into what? {', '.join(f'--{kind}' for kind in KINDS)}")
-    if options.every is not None and not options.html:
-        raise InputError("--every: says how many frames --html takes; there is no --html")
+    if options.every and not options.html:
+        raise InputError("--every: is for --html")
+    if options.fps and not any(getattr(options, kind) for kind in VIDEOS):
+        raise InputError("--fps: is for --mp4, --gif and --webp")
     if options.html:
         from ..exports.player import export_player
 
         file = _file(options, "html", "player.html")
         export_player(options.folder, file, options.every or 1, options.overwrite)
-    for kind in ("mp4", "gif", "webp"):
+    for kind in VIDEOS:
         if getattr(options, kind):
             from ..exports.video import export_video
 
             file = _file(options, kind, f"video.{kind}")
-            export_video(options.folder, file, options.fps, options.overwrite)
+            export_video(options.folder, file, options.fps or 25.0, options.overwrite)
     if options.vtk:
         from ..exports.vtk import export_vtk
 

@@ -147,3 +147,9 @@ def sort(particles, grid, basis):
     permute(particles)
     plan(particles, grid)
     grid.note_reach()
+
+
+def take_up(particles, grid):
+    """After what a sort had found was put back into the fields: all that follows from it."""
+    plan(particles, grid)
+    grid.note_reach()

@@ -27,9 +27,8 @@ def store_state(law: Template, p, s):
 @ti.func
 def note_if_lost(p, x, particles: Template, grid: Template):
     inside = True
-    for d in ti.static(range(grid.dim)):
-        if ti.static(d not in grid.periodic):
-            inside = inside and x[d] >= 0.0 and x[d] <= grid.constants[None].size[d]
+    for d in ti.static(grid.bounded):
+        inside = inside and x[d] >= 0.0 and x[d] <= grid.constants[None].size[d]
     if not inside:
         ti.atomic_min(particles.lost[None], particles.id[p])
 

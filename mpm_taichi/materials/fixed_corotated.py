@@ -17,6 +17,8 @@ class FixedCorotated(Elastic):
     Rotates with the body, and pushes back also when turned inside out; in plane strain the
     out-of-plane stretch is 1."""
 
+    invertible = True
+
     type: Literal["fixed_corotated"]
 
     @staticmethod

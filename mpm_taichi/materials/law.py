@@ -14,9 +14,10 @@ class MaterialLaw(Model):
     """A law without history, whose deformation is all stored: nothing flows, nothing is lost.
 
     `counters` names the histories that count how often something was cut off, each with what that
-    is."""
+    is; `invertible` says that the law answers to det F <= 0 too."""
 
     counters: ClassVar[dict[str, str]] = {}
+    invertible: ClassVar[bool] = False
 
     density: Positive = Field(description="mass per volume at the start [kg/m^3]")
 

@@ -10,8 +10,11 @@ from ..recording import RecordedFrame, Recording
 from ..renderers.quantities import QUANTITIES, shown_range
 from .packing import Packer
 
-FINEST = 65535
+FINEST = 65534
 """Quanta along an axis of the domain."""
+
+GONE = 65535
+"""All coordinates of a particle that was deleted."""
 
 LEVELS = 255
 """Quanta from the least to the largest value of a scalar."""
@@ -36,23 +39,32 @@ class Range:
     high: float = -np.inf
 
     def note(self, values: np.ndarray) -> None:
-        self.low, self.high = (
-            min(self.low, float(values.min())),
-            max(self.high, float(values.max())),
-        )
+        self.low = float(values.min(initial=self.low))
+        self.high = float(values.max(initial=self.high))
 
-    @property
-    def span(self) -> float:
-        """Above 0 also where all values are the same."""
-        return self.high - self.low or 1.0
+    def channel(self, quanta: int, kind: type) -> "Channel":
+        """In so many steps from end to end."""
+        return Channel(self.low, (self.high - self.low or 1.0) / quanta, kind)
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Quantum q stands for low + q step."""
+
+    low: float
+    step: float
+    kind: type
+
+    def quantized(self, values: np.ndarray) -> np.ndarray:
+        return np.rint((values.astype(float) - self.low) / self.step).astype(self.kind)
 
 
 class Film:
     """Every `every`-th frame of a recording.
 
-    `checksum` is the CRC-32 of the whole numbers of all frames, the low byte first: of each frame
-    the coordinates by axis, the velocity components by axis, the scalars by name; known once
-    `blocks` is through."""
+    `channels` are the coordinates by axis, the velocity components by axis, the scalars by name;
+    `checksum` is the CRC-32 of their quanta in this order, the low byte first, frame by frame; it
+    is known once `blocks` is through."""
 
     def __init__(self, recording: Recording, every: int = 1):
         self.recording = recording
@@ -62,40 +74,42 @@ class Film:
         self._measure()
 
     def _measure(self):
-        size = self.recording.scene.domain.size
-        self.along = [Range(0.0, length) for length in size]
-        self.fastest, self.speed, self.scalars = 0.0, Range(0.0, 0.0), {}
-        times, steps = [], []
+        along = [Range(0.0, length) for length in self.recording.scene.domain.size]
+        fastest, seen = Range(0.0, 0.0), {}
+        times, self.steps = [], []
         for frame in map(self.recording.__getitem__, self.numbers):
             times.append(frame.time)
-            steps.append(frame.step)
-            for axis, along in enumerate(self.along):
-                along.note(frame.position[:, axis])
-            self.fastest = max(self.fastest, float(np.abs(frame.velocity).max()))
-            self.speed.note(frame.scalars["speed"])
-            for name in frame.scalars.keys() - {"speed"}:
-                self.scalars.setdefault(name, Range()).note(frame.scalars[name])
-        self.times, self.steps = np.array(times), steps
-        self.scalars = {name: self.scalars[name] for name in QUANTITIES if name in self.scalars}
+            self.steps.append(frame.step)
+            there = ~deleted(frame)
+            for axis, its in enumerate(along):
+                its.note(frame.position[there, axis])
+            fastest.note(np.abs(frame.velocity[there]))
+            for name, values in frame.scalars.items():
+                seen.setdefault(name, Range()).note(values[there])
+        self.times, self.ranges = np.array(times), seen
+        self.scalars = [name for name in QUANTITIES if name in seen and name != "speed"]
+        step = (fastest.high or 1.0) / FASTEST
+        self.channels = [
+            *(its.channel(FINEST, np.uint16) for its in along),
+            *[Channel(-FASTEST * step, step, np.uint8)] * self.dim,
+            *(seen[name].channel(LEVELS, np.uint8) for name in self.scalars),
+        ]
 
     def quantized(self, frame: RecordedFrame) -> list[np.ndarray]:
-        """The channels of a frame, each uint16 or uint8 [n]."""
-        channels = [
-            np.rint((x - along.low) * (FINEST / along.span)).astype(np.uint16)
-            for x, along in zip(frame.position.T.astype(float), self.along, strict=True)
-        ]
-        per_quantum = FASTEST / (self.fastest or 1.0)
-        for v in frame.velocity.T.astype(float):
-            channels.append((np.rint(v * per_quantum) + FASTEST).astype(np.uint8))
-        for name, its in self.scalars.items():
-            values = frame.scalars[name].astype(float)
-            channels.append(np.rint((values - its.low) * (LEVELS / its.span)).astype(np.uint8))
-        return channels
+        """[n] of each channel."""
+        gone = deleted(frame)
+        columns = [*frame.position.T, *frame.velocity.T, *map(frame.scalars.get, self.scalars)]
+        quanta = []
+        for channel, values in zip(self.channels, columns, strict=True):
+            q = channel.quantized(np.where(gone, channel.low, values))
+            if channel.kind is np.uint16:
+                q[gone] = GONE
+            quanta.append(q)
+        return quanta
 
     def blocks(self) -> Iterator[str]:
         """The frames, packed; the first alone, so that it is seen at once."""
-        channels = 2 * self.dim + len(self.scalars)
-        several = max(1, BLOCK // (channels * self.particles))
+        several = max(1, BLOCK // (len(self.channels) * self.particles))
         starts = [0, *range(1, len(self.numbers), several)]
         packer, self.checksum = Packer(), 0
         for start, end in zip(starts, [*starts[1:], len(self.numbers)], strict=True):
@@ -114,17 +128,16 @@ class Film:
         return b"".join(np.asarray(values).astype(kind).tobytes() for values, kind in columns)
 
     def header(self) -> dict:
-        """The rest, JSON-able.  Quantum q of a scalar is low + q step."""
-        scene = self.recording.scene
-        quantities = [{"name": "body", "label": "body"}, self._quantity("speed", self.speed)]
-        for name, its in self.scalars.items():
-            packed = {"low": its.low, "step": its.span / LEVELS}
-            quantities.append(self._quantity(name, its) | packed)
+        """The rest, JSON-able."""
+        scene, dim = self.recording.scene, self.dim
+        quantities = [{"name": "body", "label": "body"}, self._quantity("speed")]
+        for name, channel in zip(self.scalars, self.channels[2 * dim :], strict=True):
+            quantities.append(self._quantity(name) | {"low": channel.low, "step": channel.step})
         images = scene.output.images
         return {
             "title": scene.title or self.recording.folder.name,
             "source": scene.source,
-            "dimension": self.dim,
+            "dimension": dim,
             "particles": self.particles,
             "bodies": self.recording.body_names,
             "domain": {
@@ -132,9 +145,9 @@ class Film:
                 "cells": scene.domain.cells,
                 "walls": self._walls(),
             },
-            "low": [along.low for along in self.along],
-            "step": [along.span / FINEST for along in self.along],
-            "velocityStep": (self.fastest or 1.0) / FASTEST,
+            "low": [channel.low for channel in self.channels[:dim]],
+            "step": [channel.step for channel in self.channels[:dim]],
+            "velocityStep": self.channels[dim].step,
             "quantities": quantities,
             "colorBy": "speed" if images == "none" else images.color_by,
             "gridOpacity": 0.25 if images == "none" else images.grid,
@@ -143,9 +156,10 @@ class Film:
             "history": self._history(),
         }
 
-    def _quantity(self, name: str, its: Range) -> dict:
+    def _quantity(self, name: str) -> dict:
         """The legend begins or ends at 0 but for a density, as that of the pictures does."""
         quantity, images = QUANTITIES[name], self.recording.scene.output.images
+        its = self.ranges[name]
         low, high = (
             (its.low, its.high) if name == "density" else (min(its.low, 0), max(its.high, 0))
         )
@@ -186,6 +200,11 @@ class Film:
             "curves": {name: short(values[rows]) for name, values in columns.items()},
             "frames": {name: short(values) for name, values in at_frames.items()},
         }
+
+
+def deleted(frame: RecordedFrame) -> np.ndarray:
+    """[n], whether the particle had left the domain and was taken out."""
+    return np.isnan(frame.position[:, 0])
 
 
 def short(values: np.ndarray) -> list[float]:

@@ -1,10 +1,10 @@
 """errors.csv: how far the run is from the exact solution of its scene."""
 
-import csv
 from pathlib import Path
 from typing import Any
 
 from ..exact import Error, ExactSolution
+from .table import Table
 
 UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "energy": "J"}
 
@@ -16,28 +16,29 @@ class Errors:
 
     Without a path nothing is written, and `summary` is what is left."""
 
-    def __init__(self, path: Path | None, simulation, every_steps: int):
+    def __init__(self, path: Path | None, simulation, every_steps: int, state=None):
         self.every_steps, self.exact = every_steps, ExactSolution(simulation)
-        self._worst: dict[str, dict[str, float]] = {}
-        self._file: Any = None
-        if path is not None:
-            self._file = path.open("w", newline="", encoding="utf-8")
-            self._writer = csv.writer(self._file, lineterminator="\n")
+        before = state or {"size": None, "worst": {}}
+        self._worst: dict[str, dict[str, float]] = before["worst"]
+        self._table = None if path is None else Table(path, before["size"])
 
     def record(self, simulation, is_output):
         if not (is_output or simulation.step_count % self.every_steps == 0):
             return
         errors = self.exact.errors()
-        if self._file is not None:
-            self._write({"time": simulation.time} | _columns(errors))
+        if self._table is not None:
+            self._table.write({"time": simulation.time} | _columns(errors))
             if is_output:
-                self._file.flush()
+                self._table.flush()
         for name, new in errors.items():
             self._note(name, new, simulation.time)
 
+    def state(self) -> dict[str, Any]:
+        return {"size": self._table and self._table.kept_size(), "worst": self._worst}
+
     def close(self):
-        if self._file is not None:
-            self._file.close()
+        if self._table is not None:
+            self._table.close()
 
     def summary(self) -> dict[str, dict[str, Any]]:
         """By quantity, over the times recorded: the largest `error` and the time `at` which it was,
@@ -60,11 +61,6 @@ class Errors:
                 else f"{name} {100 * relative:.2g} % ({amount})"
             )
         return f"error against the exact solution: {', '.join(parts)}"
-
-    def _write(self, row):
-        if not self._worst:
-            self._writer.writerow(row)
-        self._writer.writerow(row.values())
 
     def _note(self, name, new: Error, time):
         start = {"error": -1.0, "at": time, "scale": 0.0}

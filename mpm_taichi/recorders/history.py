@@ -1,34 +1,38 @@
 """history.csv: what is conserved, where the energy is, and how each body moves."""
 
-import csv
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .table import Table
 
 
 class History:
     """A row every `every_steps` steps and at each output, in SI units."""
 
-    def __init__(self, path: Path, simulation, every_steps: int):
+    def __init__(self, path: Path, simulation, every_steps: int, state=None):
         self.every_steps = every_steps
         self.gravity = simulation.scene.gravity_vector
-        self.first: dict[str, float] | None = None
-        self.last: dict[str, float] | None = None
-        self._file = path.open("w", newline="", encoding="utf-8")
-        self._writer = csv.writer(self._file, lineterminator="\n")
+        before = state or {"size": None, "first": None, "last": None}
+        self.first: dict[str, float] | None = before["first"]
+        self.last: dict[str, float] | None = before["last"]
+        self._table = Table(path, before["size"])
 
     def record(self, simulation, is_output):
         if not (is_output or simulation.step_count % self.every_steps == 0):
             return
-        row = self._row(simulation)
-        if self.first is None:
-            self.first = row
-            self._writer.writerow(row)
-        self.last = row
-        self._writer.writerow(row.values())
+        self.last = self._row(simulation)
+        self.first = self.first or self.last
+        self._table.write(self.last)
         if is_output:
-            self._file.flush()
+            self._table.flush()
+
+    def state(self) -> dict[str, Any]:
+        return {"size": self._table.kept_size(), "first": self.first, "last": self.last}
 
     def close(self):
-        self._file.close()
+        self._table.close()
 
     def _row(self, simulation) -> dict[str, float]:
         sums, axes = simulation.sums, "xyz"[: simulation.scene.dimension]
@@ -48,8 +52,9 @@ class History:
             # - sum m g . x, zero at the origin
             "gravitational_energy": -(sums["mass_moment"].sum(axis=0) @ self.gravity),
         }
-        centers = sums["mass_moment"] / mass[:, None]
-        velocities = sums["momentum"] / mass[:, None]
+        with np.errstate(invalid="ignore", divide="ignore"):  # a body may be deleted: NaN
+            centers = sums["mass_moment"] / mass[:, None]
+            velocities = sums["momentum"] / mass[:, None]
         for body, center, velocity in zip(
             simulation.scene.bodies, centers, velocities, strict=True
         ):

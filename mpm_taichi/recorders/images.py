@@ -2,6 +2,7 @@
 
 from math import inf
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -12,12 +13,17 @@ class Images:
 
     every_steps = None
 
-    def __init__(self, folder: Path, simulation, style):
+    def __init__(self, folder: Path, simulation, style, state=None):
         folder.mkdir(exist_ok=True)
         self.folder, self.style = folder, style
-        self.count = 0
         widest = (inf, -inf) if style.color_by == "density" else (0.0, 0.0)
-        self.low, self.high = widest if style.range is None else style.range
+        low, high = widest if style.range is None else style.range
+        before = state or {"count": 0, "low": low, "high": high}
+        self.count, self.low, self.high = before["count"], before["low"], before["high"]
+        for path in folder.glob("frame_*.png"):
+            number = path.stem.removeprefix("frame_")
+            if number.isdecimal() and int(number) >= self.count:
+                path.unlink()  # of an attempt that has failed, or drawn again by this one
 
     def record(self, simulation, is_output):
         if not is_output:
@@ -31,7 +37,7 @@ class Images:
             self.low, self.high = min(self.low, value.min()), max(self.high, value.max())
         edge = snapshot.initial_volume ** (1 / scene.dimension)
         frame = Frame(
-            position=snapshot.position,
+            position=snapshot.visible_position,
             radius=0.5 * edge,
             body=simulation.body_of_particle,
             body_names=[body.name for body in scene.bodies],
@@ -51,6 +57,9 @@ class Images:
             {"Title": scene.title, "time": repr(snapshot.time)},
         )
         self.count += 1
+
+    def state(self) -> dict[str, Any]:
+        return {"count": self.count, "low": float(self.low), "high": float(self.high)}
 
     def close(self):
         """Pictures are whole as soon as they are there."""

@@ -74,7 +74,7 @@ class ParaView:
             scalar("elastic energy density [J/m^3]", now.energy_density),
             scalar("volume ratio [-]", now.volume_ratio),
         ]
-        write_vtp(particles.next_path, now.time, now.position, columns)
+        write_vtp(particles.next_path, now.time, now.visible_position, columns)
         particles.add(now.time)
         for series in grid:
             if simulation.step_count > 0:

@@ -67,7 +67,7 @@ class Snapshots:
         if not is_output:
             return
         now = simulation.snapshot
-        arrays = {"position": now.position, "velocity": now.velocity}
+        arrays = {"position": now.visible_position, "velocity": now.velocity}
         arrays |= {name: getattr(now, source) for name, source in self.names.items()}
         write_arrays(
             self.folder / f"snapshot_{self.count:04d}.npz",

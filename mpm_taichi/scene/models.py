@@ -51,6 +51,11 @@ class Domain(Model):
     walls: RuleName | Walls = Field(
         default="none", description="one rule for all sides, or one for each"
     )
+    outside: Literal["stop", "delete", "clamp"] = Field(
+        default="stop",
+        description="what happens to a particle that leaves: the run stops, the particle is "
+        "deleted, or clamped to the border; both are counted",
+    )
 
     @property
     def dimension(self) -> int:
@@ -218,6 +223,11 @@ class Output(Model):
     )
     images: Images | Literal["none"] = Field(default=Images(), description="pictures, or none")
     history: History = Field(default=History(), description="table of energies and momenta")
+    checkpoints: Positive | Literal["none"] | None = Field(
+        default=None,
+        description="seconds of computing between two states that a run can be resumed from, or "
+        "none; default: 60, or more where they would take over 2 % of the run",
+    )
     snapshots: bool | None = Field(
         default=None,
         description="particles of each output in a file, for player, films and analysis; default: "

@@ -10,9 +10,10 @@ import mpm_taichi
 
 PACKAGE = Path(mpm_taichi.__file__).parent
 MEMORY_AND_THREADS = {
-    f"kernels/{name}.py" for name in ("blocks", "rows", "sort", "time_step", "whole_steps")
+    f"kernels/{name}.py"
+    for name in ("blocks", "guard", "outside", "rows", "sort", "time_step", "whole_steps")
 }
-"""Modules about memory, threads and launches: the twin has none."""
+"""Modules about memory, threads and launches, and what is done about faults: the twin has none."""
 
 STATED_IN_SCENES = {"materials/elastic.py", "materials/presets.py"}
 """Parameters that scenes give: the twin takes them from the scene's models."""

@@ -52,7 +52,7 @@ def by_hand(twin, given, dt, last):
 CASES = [
     (2, QuadraticBSpline, MLS, 0.0, False),
     pytest.param(2, QuadraticBSpline, FLIPBlend, 0.0, True, marks=pytest.mark.slow),
-    pytest.param(2, CubicBSpline, TPIC, 0.0, False, marks=pytest.mark.slow),
+    pytest.param(2, CubicBSpline, TPIC, 0.0, False, marks=pytest.mark.campaign),
     pytest.param(3, Linear, FLIP, 2.5e-4, False, marks=pytest.mark.slow),
 ]
 

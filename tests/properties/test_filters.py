@@ -10,10 +10,18 @@ from mpm_taichi.reference import bases as twins
 from mpm_taichi.reference.kernels.stencil import stencil
 from mpm_taichi.transfers import APIC, FLIP, MLS, PIC, TPIC, XPIC, FLIPBlend, FLIPChoice, FlipPart
 
-from ..verification.motions import snapshot, solver
+from ..verification.motions import Living, snapshot
 
 CELLS, DX = 8, 1 / 8
 DT = 1e-3
+
+
+pytestmark = pytest.mark.xdist_group("filters")
+
+
+@pytest.fixture(scope="module")
+def living():
+    return Living()
 
 
 def block():
@@ -42,10 +50,10 @@ def unseen_velocity(rng, basis):
     return x, v / np.sqrt((v**2).sum(axis=1).mean()), V0
 
 
-def decay(rng, basis, transfer, steps, dt=DT, **options):
+def decay(living, rng, basis, transfer, steps, dt=DT, **options):
     """Kinetic energy after each step over that at the start, without any force."""
     x, v, V0 = unseen_velocity(rng, basis)
-    mpm = solver(x, v, V0, CELLS, basis, transfer, **options)
+    mpm = living.solver(x, v, V0, CELLS, basis, transfer, **options)
     energy = [diagnostics.kinetic_energy(snapshot(mpm))]
     mpm.start(dt)
     for step in range(steps):
@@ -55,29 +63,29 @@ def decay(rng, basis, transfer, steps, dt=DT, **options):
 
 
 @pytest.mark.parametrize("basis", [bases.Linear, bases.QuadraticBSpline], ids=lambda b: b.name)
-def test_blend_takes_its_share_in_each_step(fast, rng, basis):
+def test_blend_takes_its_share_in_each_step(living, rng, basis):
     """FLIP part alpha = 0.99: v shrinks by alpha in each step, nodes stay at rest, so the energy
     after n steps is alpha^(2 n) to n rounding errors (0.9801 after 1, 0.8179 after 10)."""
-    found, n = decay(rng, basis, FLIPBlend, 10, flip_part=FlipPart(0.99)), np.arange(1, 11)
+    found, n = decay(living, rng, basis, FLIPBlend, 10, flip_part=FlipPart(0.99)), np.arange(1, 11)
     print(f"relative {np.abs(found / 0.99 ** (2 * n) - 1).max():.1e}; {found}")
     assert (np.abs(found / 0.99 ** (2 * n) - 1) < 1e-13 * (n + 1)).all()
 
 
-def test_blend_by_a_time_does_not_depend_on_the_step(fast, rng):
+def test_blend_by_a_time_does_not_depend_on_the_step(living, rng):
     """relaxation_time = 25 ms: after 10 ms v is down to exp(-0.4) in 10 steps as in 40, and the
     energy to exp(-0.8), to rounding errors; with a ratio it would be alpha^20 or alpha^80."""
     choice = FLIPChoice(type="flip", relaxation_time=0.025)
     for steps in (10, 40):
         found = decay(
-            rng, bases.QuadraticBSpline, choice.transfer, steps, 0.01 / steps,
+            living, rng, bases.QuadraticBSpline, choice.transfer, steps, 0.01 / steps,
             flip_part=choice.flip_part,
         )  # fmt: skip
         assert found[-1] == pytest.approx(np.exp(-0.8), rel=1e-13 * (steps + 1))
 
 
-def test_flip_keeps_it(fast, rng):
+def test_flip_keeps_it(living, rng):
     """The control, and the reason for filters: pure FLIP keeps all of it."""
-    assert decay(rng, bases.QuadraticBSpline, FLIP, 10)[-1] == pytest.approx(1, rel=1e-12)
+    assert decay(living, rng, bases.QuadraticBSpline, FLIP, 10)[-1] == pytest.approx(1, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -92,9 +100,9 @@ def test_flip_keeps_it(fast, rng):
     ],
     ids=["pic", "xpic 2", "xpic 5", "apic", "tpic", "mls"],
 )
-def test_filters_remove_it_in_one_step(fast, rng, transfer, options):
+def test_filters_remove_it_in_one_step(living, rng, transfer, options):
     """Every transfer that reads velocities from nodes loses it at once: what is left is the
     rounding error of v, 1e-16 of it and some digits, squared: 1e-28."""
-    (found,) = decay(rng, bases.QuadraticBSpline, transfer, 1, **options)
+    (found,) = decay(living, rng, bases.QuadraticBSpline, transfer, 1, **options)
     print(f"left: {found:.1e}")
     assert found < 1e-28

@@ -13,7 +13,14 @@ from mpm_taichi.kernels.sort import sort
 from mpm_taichi.transfers import FLIP, PIC
 
 from ..cases import CASES
-from ..verification.motions import ball_points, solver
+from ..verification.motions import Living, ball_points
+
+pytestmark = pytest.mark.xdist_group("transfers")
+
+
+@pytest.fixture(scope="module")
+def living():
+    return Living(fast_math=False)
 
 
 def gathered(mpm):
@@ -33,12 +40,12 @@ def gathered(mpm):
     return rows[:, P.layout.pic, :dim], C, S
 
 
-def scattering(rng, dim, basis, transfer, field):
+def scattering(living, rng, dim, basis, transfer, field):
     """A ball with random masses whose particles scatter the affine field v = a + M x."""
     cells = {2: 16, 3: 10}[dim]
     x, V0 = ball_points(dim, cells, 0.25, 0.1 * (rng.random(dim) - 0.5))
     a, M = field
-    mpm = solver(x, x @ M.T + a, V0 * (0.5 + rng.random(len(x))), cells, basis, transfer)
+    mpm = living.solver(x, x @ M.T + a, V0 * (0.5 + rng.random(len(x))), cells, basis, transfer)
     mpm.start(0.0)
     if transfer.affine:
         rows = mpm.particles.rows.to_numpy()
@@ -52,10 +59,10 @@ def scattering(rng, dim, basis, transfer, field):
 
 
 @pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
-def test_uniform_motion_comes_back(exact, rng, dim, basis, transfer):
+def test_uniform_motion_comes_back(living, rng, dim, basis, transfer):
     """v = a at all particles: v = a at all nodes and back, with no gradient (sum w = 1)."""
     a = rng.normal(size=dim)
-    mpm, _ = scattering(rng, dim, basis, transfer, (a, np.zeros((dim, dim))))
+    mpm, _ = scattering(living, rng, dim, basis, transfer, (a, np.zeros((dim, dim))))
     v, C, S = gathered(mpm)
     assert np.abs(v - a).max() < 1e-13
     dx = mpm.grid.dx
@@ -66,11 +73,11 @@ AFFINE = [case for case in CASES if getattr(case.values[2], "affine", False)]
 
 
 @pytest.mark.parametrize(("dim", "basis", "transfer"), AFFINE)
-def test_affine_motion_comes_back(exact, rng, dim, basis, transfer):
+def test_affine_motion_comes_back(living, rng, dim, basis, transfer):
     """v = a + M x with C = M: P2G puts a + M x_i on every node, also at the ragged edge, and G2P
     returns v, C = M (and L = M) to rounding error.  (TPIC gathers L alone.)"""
     a, M = rng.normal(size=dim), rng.normal(size=(dim, dim))
-    mpm, x = scattering(rng, dim, basis, transfer, (a, M))
+    mpm, x = scattering(living, rng, dim, basis, transfer, (a, M))
     v, C, S = gathered(mpm)
     assert np.abs(v - (x @ M.T + a)).max() < 1e-12
     if transfer.moments:
@@ -80,11 +87,11 @@ def test_affine_motion_comes_back(exact, rng, dim, basis, transfer):
 
 
 @pytest.mark.parametrize("transfer", [PIC, FLIP])
-def test_affine_motion_blurs_without_an_affine_part(exact, rng, transfer):
+def test_affine_motion_blurs_without_an_affine_part(living, rng, transfer):
     """The control: PIC and FLIP scatter no affine part, so the gathered velocity differs at the
     edge of the body."""
     basis = QuadraticBSpline
     a, M = rng.normal(size=2), np.array([[1.0, 2.0], [-2.0, 1.0]])
-    mpm, x = scattering(rng, 2, basis, transfer, (a, M))
+    mpm, x = scattering(living, rng, 2, basis, transfer, (a, M))
     v, _, _ = gathered(mpm)
     assert np.abs(v - (x @ M.T + a)).max() > 1e-3

@@ -40,6 +40,7 @@ def test_riding_bar_is_as_good_as_the_one_at_rest():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_riding_bar_in_hat_functions():
     """Expected failure: the linear basis loses the motion, 0.30 of the amplitude at the end and
     thirty times what splines have; at rest, where no cell is crossed, it has 0.03 and less at the

@@ -42,6 +42,7 @@ def test_stress_converges(method):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_hat_functions_diverge():
     """Where particles cross cells, more of them make the error larger: the published failure."""
     method = "{basis: linear, transfer: {type: flip}}"

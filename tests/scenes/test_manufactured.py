@@ -98,7 +98,7 @@ def error_1d(N, A):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "cells", [(8, 16, 32, 64), pytest.param((128,), marks=pytest.mark.campaign)], ids=str
+    "cells", [(8, 16, 32), pytest.param((64, 128), marks=pytest.mark.campaign)], ids=str
 )
 def test_small_amplitude_in_1d_equals_the_published_errors(cells):
     """A = 1e-4, hat functions, FLIP, USL: within 1 % of the errors that mpmat stored for h = 1/8 to
@@ -115,6 +115,7 @@ def test_small_amplitude_in_1d_equals_the_published_errors(cells):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_large_amplitude_in_1d_diverges():
     """Expected failure: at A = 0.05 particles cross cells, and hat functions get worse as cells
     shrink: the error with 64 cells is at least 3 times that with 8 (mpmat 3.8; here 3.8)."""
@@ -142,17 +143,18 @@ def error(dim, N, basis="quadratic"):
     ("basis", "expected"),
     [
         pytest.param("quadratic", [0.0595, 0.01373, 0.00453], marks=pytest.mark.campaign),
-        ("cubic", [0.0876, 0.01928, 0.00459]),
+        ("cubic", [0.0876, 0.01928]),
+        pytest.param("cubic", [0.0876, 0.01928, 0.00459], marks=pytest.mark.campaign),
     ],
 )
 def test_second_order_in_2d(basis, expected):
     """MLS, 16 % strain, walls on all sides, starting deformed: the errors as measured, to 3 %, and
     orders from 8 to 16 to 32 cells of at least 1.85 (cubic 2.18 and 2.07; quadratic 2.11, then 1.60
     where the floor of 2 particles per cell begins, numerics.md 8.4)."""
-    errors = [error(2, N, basis) for N in (8, 16, 32)]
+    errors = [error(2, N, basis) for N in (8, 16, 32)[: len(expected)]]
     print(f"errors {errors}, orders {orders(errors)}")
     assert orders(errors)[0] >= 1.85
-    assert basis == "quadratic" or orders(errors)[1] >= 1.85
+    assert basis == "quadratic" or orders(errors).min() >= 1.85
     assert errors == pytest.approx(expected, rel=0.03)
 
 

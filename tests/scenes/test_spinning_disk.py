@@ -20,7 +20,7 @@ def angular_momentum(transfer, end=5):
     return np.array(kept) / kept[0]
 
 
-@pytest.mark.parametrize("force", ["mls", "gradient"])
+@pytest.mark.parametrize("force", ["mls", pytest.param("gradient", marks=pytest.mark.campaign)])
 def test_apic_keeps_it(force):
     """To 1e-11 over 500 steps, a revolution: n k u with some 1e2 contributions to a node (measured
     1e-14)."""

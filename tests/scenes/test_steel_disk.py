@@ -66,9 +66,13 @@ def lattice(center, counts, radius=np.inf):
 
 
 @pytest.mark.slow
-def test_published_law_at_the_published_times():
-    """Hat functions, FLIP, MUSL, 4800 steps: each height within 0.3 mm of the table (seen 0.13).
-    Another law or scheme is further off: standard J2 by 1.2 mm at 40 us, quadratic FLIP by 2.3."""
+@pytest.mark.parametrize(
+    "end", [20, pytest.param(48, marks=pytest.mark.campaign)], ids=["20 us", "48 us"]
+)
+def test_published_law_at_the_published_times(end):
+    """Hat functions, FLIP, MUSL, steps of 1e-8 s: each height within 0.3 mm of the table (seen
+    0.13).  Another law or scheme is further off: standard J2 by 1.2 mm at 40 us, quadratic FLIP by
+    2.3."""
     runtime.start("cpu", "f64", threads=1)
     steel = LinearElastic(
         type="linear_elastic", density=7850, youngs_modulus=200e9, poissons_ratio=0.3
@@ -87,13 +91,13 @@ def test_published_law_at_the_published_times():
     solver = Solver(bodies, (50, 50), CELL, Linear, FLIP, walls, (0, 0), stress_update="musl")
     solver.start(STEP)
     seen = {}
-    for number in range(1, 4801):
+    for number in range(1, 100 * end + 1):
         solver.step((number - 1) * STEP, STEP, lambda _: STEP)
         if number in (100 * t for t in LOWEST):
             lowest = 1e3 * solver.particles.to_numpy("x")[: len(disk), 1].min()
             seen[number // 100] = round(float(lowest), 3)
     print(seen)
-    assert seen == pytest.approx(LOWEST, abs=0.3)
+    assert seen == pytest.approx({t: y for t, y in LOWEST.items() if t <= end}, abs=0.3)
 
 
 @pytest.mark.slow

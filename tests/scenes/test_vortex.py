@@ -46,6 +46,7 @@ def test_cubic_splines_follow_it(force):
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 def test_few_particles_tear_the_ring():
     """2 x 2 particles per cell: in a shear of 7 neighbors end up further apart than the functions
     reach, the ring comes apart and particles leave the domain.  An expected failure of every scheme

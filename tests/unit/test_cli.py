@@ -6,25 +6,22 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from mpm_taichi import cli, load_scene, report, run_folder
 from mpm_taichi.commands import COMMANDS
 from mpm_taichi.commands import run as run_command
+from mpm_taichi.interruption import Interrupted, Interruption
 from mpm_taichi.recorders import History
-from mpm_taichi.run import Interrupted, Interruption
-from tests.command_line import SCENES, environment, history, mpm_taichi
+from tests.command_line import SCENES, environment, history, in_words, mpm_taichi
 
 LATTICE = SCENES / "two_disks_lattice.yaml"
 SHORT = ("--set", "time.end=0.05", "--set", "output.images=none")
 TINY = ("--set", "time.end=0.002", "--set", "output.every=0.001", "--set", "output.images=none")
 STAGES = {"sort", "whole_steps", "update_stress"}
 """Of a scene with few particles."""
-
-
-def in_words(text: str) -> bool:
-    return bool(text.strip()) and "Traceback" not in text
 
 
 @pytest.fixture(scope="module")
@@ -166,15 +163,17 @@ def test_a_signal_ends_the_run_between_two_steps(stopped, number):
 def test_a_second_signal_acts_at_once():
     """Within one step that does not end; afterward signals do again what they did before."""
     before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    still = SimpleNamespace(stop_asked=False)
     with Interruption() as interruption:
-        interruption.record(None, is_output=False)
+        interruption.record(still, is_output=False)
         signal.raise_signal(signal.SIGTERM)
         with pytest.raises(Interrupted) as found:
-            interruption.record(None, is_output=False)
-        assert found.value.exit_code == 143
+            interruption.record(still, is_output=False)
+        assert (found.value.exit_code, found.value.is_between) == (143, True)
+        assert still.stop_asked
         with pytest.raises(Interrupted) as found:
             signal.raise_signal(signal.SIGINT)
-        assert found.value.exit_code == 130
+        assert (found.value.exit_code, found.value.is_between) == (130, False)
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
 
 

@@ -30,8 +30,10 @@ def row_of(simulation, tmp_path):
 
 @pytest.mark.parametrize(
     ("scene", "changes"),
-    [("two_disks_lattice", TWO_DIMENSIONS), ("two_balls", THREE_DIMENSIONS)],
-    ids=["2D", "3D"],
+    [
+        pytest.param("two_disks_lattice", TWO_DIMENSIONS, id="2D"),
+        pytest.param("two_balls", THREE_DIMENSIONS, id="3D", marks=pytest.mark.campaign),
+    ],
 )
 def test_a_row_is_what_a_snapshot_adds_up_to(tmp_path, scene, changes):
     """Ten steps of MLS-MPM with two bodies of one material, which in 2D overlap, so that the sort

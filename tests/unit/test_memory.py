@@ -143,7 +143,9 @@ def test_ten_million_particles(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("dim", "precision"), [(2, "f64"), (3, "f32")])
+@pytest.mark.parametrize(
+    ("dim", "precision"), [(2, "f64"), pytest.param(3, "f32", marks=pytest.mark.campaign)]
+)
 def test_arrays_on_the_host(tmp_path, monkeypatch, dim, precision):
     """NumPy's peak in an output is that of the plan, 10 % for the arrays of a block of particles.
     Starting takes less.  It is the second output that counts: arrays with which a kernel was

@@ -21,7 +21,7 @@ FLAGS = (
     "--no-sandbox", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 )  # fmt: skip
-LEFT, RIGHT, TOP, BOTTOM = 30, 30, 20, 70
+LEFT, RIGHT, TOP, BOTTOM = 30, 30, 20, 84
 """Pixels around the domain (mpm_taichi/player/template/camera.js)."""
 
 FRAMES = 21
@@ -126,11 +126,12 @@ def orange_spot(picture, at) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def two_d(browser, tmp_path_factory):
-    """A disk of 300 particles in 2D; 21 frames in 2 s."""
+    """A disk of 300 particles in 2D, one of which is deleted on the way; 21 frames in 2 s."""
     rng = np.random.default_rng(5)
     folder = tmp_path_factory.mktemp("player")
     x = turning_disk(FRAMES, 300, rng)
     stress = 100 * np.abs(x).sum(axis=2)
+    x[15:, 3] = np.nan
     changes = ["output.images={color_by: stress, grid: 0.5}"]
     run = write_run(folder / "run", "two_disks_lattice", changes, x, {"stress": stress})
     film = player(Recording(run))
@@ -257,6 +258,13 @@ def test_picked_particle_and_log(two_d):
     assert entries(log["velocity"].split(")")[0]) == pytest.approx(v, abs=0.006)
     assert log["elastic energy of all"] == "0.25 J"
     assert {"von Mises stress", "kinetic energy", "energy of all"} <= log.keys()
+    shown.ask("player.page.pick(3)")
+    shown.slide("#seek", 14)
+    shown.picture()
+    assert shown.log()["particle"].startswith("3 (") and "mass" in shown.log()
+    page.click("#step")
+    shown.picture()
+    assert shown.log()["particle"] == "3, which has left" and "mass" not in shown.log()
     page.click("#log-button")
     assert not page.is_visible("#log")
     page.keyboard.press("l")

@@ -87,7 +87,12 @@ def test_a_number_that_is_none_ends_the_run():
     particles = simulation.solver.particles
     place = int(np.flatnonzero(particles.id.to_numpy() == 300)[0])
     mirrored = np.diag([-2.0, 0.0])
-    for name, value in (("x", np.nan), ("H", np.nan), ("rows", np.nan), ("H", mirrored)):
+    for name, value, words in (
+        ("x", np.nan, "has a position that is no number (x = (nan, nan) m, v = ("),
+        ("H", np.nan, "has a deformation that is no number (x = ("),
+        ("rows", np.nan, "has a velocity that is no number (x = ("),
+        ("H", mirrored, "is turned inside out: det F = -1 (x = ("),
+    ):
         field = getattr(particles, name)
         whole = field.to_numpy()
         spoiled = whole.copy()
@@ -98,8 +103,9 @@ def test_a_number_that_is_none_ends_the_run():
             with pytest.raises(RunError) as found:
                 getattr(simulation, shown)
             text = str(found.value)
-            assert text.startswith("t = 0.001 s, step 1: particle 300 (body upper, material rubb")
-            assert "is no number. a shorter time.step may help: steps were up to 0.001 s" in text
+            start = f"t = 0.001 s, step 1: particle 300 (body upper, material rubber) {words}"
+            assert text.startswith(start)
+            assert "). A shorter time.step may help: steps were up to 0.001 s" in text
         field.from_numpy(whole)
     assert simulation.snapshot.step == 1
     assert np.isfinite(simulation.sums["kinetic_energy"]).all()

@@ -38,7 +38,9 @@ def frames_of(file: Path) -> list[np.ndarray]:
         import imageio_ffmpeg
 
         reader = imageio_ffmpeg.read_frames(file)
-        width, height = next(reader)["size"]
+        said = next(reader)
+        assert "yuv420p(tv, bt709," in said["pix_fmt"]  # or players guess, each another matrix
+        width, height = said["size"]
         return [np.frombuffer(frame, np.uint8).reshape(height, width, 3) for frame in reader]
     frames = []
     with Image.open(file) as movie:
@@ -107,6 +109,7 @@ def test_wrong_words(run, tmp_path, capfd):
     """Each a sentence and exit code 2."""
     for words, said in (
         ([run], "into what? --mp4, --gif, --webp"),
+        ([run, "--vtk", "--fps", "9"], "--fps: is for --mp4, --gif and --webp"),
         ([tmp_path, "--gif"], "has no run.json, so it is no run"),
         ([run, "--gif", "--fps", "51"], "a GIF has at most 50 pictures a second"),
     ):

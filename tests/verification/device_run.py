@@ -29,10 +29,9 @@ def run(device, precision, dim, transfer):
 
 def main(device, precision, path):
     results = {}
-    for dim in (2, 3):
-        for transfer in (MLS, FLIP):
-            x, H = run(device, precision, dim, transfer)
-            results |= {f"{dim} {transfer.__name__} x": x, f"{dim} {transfer.__name__} H": H}
+    for dim, transfer in ((2, FLIP), (3, MLS)):
+        x, H = run(device, precision, dim, transfer)
+        results |= {f"{dim} {transfer.__name__} x": x, f"{dim} {transfer.__name__} H": H}
     np.savez(path, **results)
 
 

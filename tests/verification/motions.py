@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from mpm_taichi import diagnostics
+from mpm_taichi import diagnostics, runtime
 from mpm_taichi.materials import NeoHookean
 from mpm_taichi.particles import BodyPoints
 from mpm_taichi.shapes import Ball
 from mpm_taichi.snapshot import take_snapshot
 from mpm_taichi.solver import Solver
+from mpm_taichi.transfers import FlipPart
 
 JELLY = NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e4, poissons_ratio=0.3)
 
@@ -32,6 +33,7 @@ def solver(x, v, V0, cells, basis, transfer, gravity=None, **options):
 def restart(solver, x, v, V0):
     """The same solver with as many particles at other places: nothing is compiled again."""
     particles = solver.particles
+    assert particles.count == len(x)
     m = JELLY.density * V0
     particles.x.from_numpy(x)
     particles.V0.from_numpy(V0)
@@ -42,6 +44,28 @@ def restart(solver, x, v, V0):
     particles.H.fill(0.0)
     particles.rows.from_numpy(particles.gathered(m, v, np.zeros_like(particles.to_numpy("H"))))
     solver.drift = np.inf
+
+
+class Living:
+    """Solvers of one start of Taichi, f64: those of a method with as many particles are compiled
+    once, and start again with others."""
+
+    def __init__(self, **options):
+        runtime.start("cpu", "f64", threads=2, **options)
+        self.solvers = {}
+
+    def solver(
+        self, x, v, V0, cells, basis, transfer, gravity=None, flip_part=None, filter_order=1
+    ):
+        key = x.shape, cells, basis, transfer
+        if key not in self.solvers:
+            self.solvers[key] = solver(x, v, V0, cells, basis, transfer)
+        found = self.solvers[key]
+        restart(found, x, v, V0)
+        found.gravity[None] = list(gravity or [0.0] * x.shape[1])
+        found.flip_part, found.filter_order = flip_part or FlipPart(), filter_order
+        found.grid.cut[None] = 0
+        return found
 
 
 def advance(solver, dt, steps):

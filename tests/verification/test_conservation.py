@@ -12,12 +12,19 @@ from mpm_taichi.kernels.p2g import p2g
 from mpm_taichi.transfers import APIC, FLIP, MLS, PIC, TPIC
 
 from ..cases import CASES
-from .motions import JELLY, advance, ball_points, momenta, snapshot, solver
+from .motions import JELLY, Living, advance, ball_points, momenta, snapshot
 
 SIZES = {2: (20, 0.2), 3: (12, 0.22)}
 
+pytestmark = pytest.mark.xdist_group("conservation")
 
-def start(rng, dim, basis, transfer, omega=0.0, **options):
+
+@pytest.fixture(scope="module")
+def living():
+    return Living()
+
+
+def start(living, rng, dim, basis, transfer, omega=0.0, **options):
     """A ball somewhere in the box, with uniform and rotating velocity."""
     cells, radius = SIZES[dim]
     x, V0 = ball_points(dim, cells, radius, 0.1 * (rng.random(dim) - 0.5))
@@ -25,14 +32,14 @@ def start(rng, dim, basis, transfer, omega=0.0, **options):
     r = x - x.mean(axis=0)
     v[:, 0] -= omega * r[:, 1]
     v[:, 1] += omega * r[:, 0]
-    return solver(x, v, V0, cells, basis, transfer, **options), x, v
+    return living.solver(x, v, V0, cells, basis, transfer, **options), x, v
 
 
 @pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
-def test_mass_and_momentum(fast, rng, dim, basis, transfer):
+def test_mass_and_momentum(living, rng, dim, basis, transfer):
     """A moving, compressed ball springs back: 100 steps keep the momentum to 1e-13 of sum m |v| per
     step (k u), and the nodes hold the mass of the particles to 1e-13."""
-    mpm, x, v = start(rng, dim, basis, transfer)
+    mpm, x, v = start(living, rng, dim, basis, transfer)
     mpm.particles.H.from_numpy(np.tile(-0.05 * np.eye(dim), (len(x), 1, 1)))
     before = snapshot(mpm).mass @ v
     dt = 2e-4
@@ -58,10 +65,10 @@ def test_mass_and_momentum(fast, rng, dim, basis, transfer):
         (3, QuadraticBSpline, APIC),
     ],
 )
-def test_spinning_ball_keeps_angular_momentum(fast, rng, dim, basis, transfer):
+def test_spinning_ball_keeps_angular_momentum(living, rng, dim, basis, transfer):
     """APIC conserves sum x x m v + sum m axial(B) where the stencil is whole (Jiang et al. 2015):
     1e-11 after 400 steps of a soft ball that widens as it spins."""
-    mpm, _, _ = start(rng, dim, basis, transfer, omega=2.0)
+    mpm, _, _ = start(living, rng, dim, basis, transfer, omega=2.0)
     mpm.start(1e-3)
     mpm.step(0.0, 1e-3, lambda speed: 1e-3)  # the affine velocity starts at 0 and is formed here
     _, before = momenta(mpm)
@@ -72,10 +79,10 @@ def test_spinning_ball_keeps_angular_momentum(fast, rng, dim, basis, transfer):
 
 
 @pytest.mark.parametrize("basis", [Linear, QuadraticBSpline])
-def test_tpic_keeps_the_angular_momentum_of_rigid_motion(fast, rng, basis):
+def test_tpic_keeps_the_angular_momentum_of_rigid_motion(living, rng, basis):
     """TPIC carries L instead of moments, and sum m axial(L D) is the angular momentum of affine
     motion alone: 1e-11 per step for a ball that spins as a rigid body, started with its L."""
-    mpm, x, v = start(rng, 2, basis, TPIC, omega=2.0)
+    mpm, x, v = start(living, rng, 2, basis, TPIC, omega=2.0)
     L = np.tile([[0.0, -2.0], [2.0, 0.0]], (len(x), 1, 1))
     rows = mpm.particles.gathered(mpm.particles.to_numpy("m"), v, L)
     mpm.particles.rows.from_numpy(rows)
@@ -86,10 +93,10 @@ def test_tpic_keeps_the_angular_momentum_of_rigid_motion(fast, rng, basis):
     assert np.abs(after - before).max() < 1e-8 * np.abs(before).max()
 
 
-def test_pic_loses_angular_momentum(fast, rng):
+def test_pic_loses_angular_momentum(living, rng):
     """The control: PIC has no affine part and must lose angular momentum, or the test above could
     not fail."""
-    mpm, _, _ = start(rng, 2, QuadraticBSpline, PIC, omega=2.0)
+    mpm, _, _ = start(living, rng, 2, QuadraticBSpline, PIC, omega=2.0)
     advance(mpm, 1e-3, 1)
     _, before = momenta(mpm)
     advance(mpm, 1e-3, 100)
@@ -98,12 +105,12 @@ def test_pic_loses_angular_momentum(fast, rng):
 
 
 @pytest.mark.parametrize(("dim", "basis", "transfer"), CASES)
-def test_free_fall_is_exact(fast, rng, dim, basis, transfer):
+def test_free_fall_is_exact(living, rng, dim, basis, transfer):
     """Under g alone, symplectic Euler gives v = v0 + n dt g and x = x0 + n dt v0 + n (n + 1)/2
     dt^2 g for every particle: sums of weights are 1, so rounding errors of 100 steps remain.  F
     stays I: |F - I| <= n s k u |v| dt / dx."""
     g = list(rng.normal(size=dim))
-    mpm, x, v = start(rng, dim, basis, transfer, gravity=g)
+    mpm, x, v = start(living, rng, dim, basis, transfer, gravity=g)
     n, dt = 100, 1e-3
     advance(mpm, dt, n)
     now = snapshot(mpm)
@@ -114,14 +121,14 @@ def test_free_fall_is_exact(fast, rng, dim, basis, transfer):
     assert np.abs(now.deformation_gradient - np.eye(dim)).max() < tolerance
 
 
-def test_breathing_ball_keeps_its_energy(fast, rng):
+def test_breathing_ball_keeps_its_energy(living, rng):
     """A ball with v = a r breathes: kinetic energy turns into elastic energy and back, while the
     sum stays within 10 % (USL dissipates at the ragged surface of a ball of 8 cells; numerics.md 3,
     row 10) and rises by at most 1.5 % (symplectic Euler: omega dt / 2).  A wrong factor in an
     energy, a force or a volume breaks it."""
-    _, x, v = start(rng, 2, QuadraticBSpline, FLIP)
+    _, x, v = start(living, rng, 2, QuadraticBSpline, FLIP)
     v = 0.3 * (x - x.mean(axis=0))
-    mpm = solver(
+    mpm = living.solver(
         x, v, np.full(len(x), 0.25 / SIZES[2][0] ** 2), SIZES[2][0], QuadraticBSpline, FLIP
     )
     dt = 0.05 / SIZES[2][0] / JELLY.wave_speed()

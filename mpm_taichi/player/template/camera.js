@@ -2,7 +2,7 @@
 // which the user may move.  Pixels are CSS pixels of the stage, from its upper left corner.
 
 const TURN = 32 * Math.PI / 180, TILT = 20 * Math.PI / 180, DISTANCE = 4;
-const MARGIN = { left: 30, right: 30, top: 20, bottom: 70 };
+const MARGIN = { left: 30, right: 30, top: 20, bottom: 84 };
 const MOST_ZOOM = 400, LEAST_ZOOM = 0.2;
 const NEAREST = 0.9;  // part of the way from the center to the camera, beyond which nothing is seen
 

@@ -1,5 +1,8 @@
 // The recorded frames: whole numbers as they were packed, and what they mean in SI units.
 
+const GONE = 65535;  // all coordinates of a particle that was deleted
+const RESTING = 127;  // a velocity component of 0
+
 class Film {
   constructor(header) {
     Object.assign(this, header);
@@ -51,20 +54,23 @@ class Film {
     return low;
   }
 
-  /** Positions and radii of a frame into an array [n, 4], in m; z is 0 in 2D. */
+  isGone(k, p) { return this.coordinates[0][k * this.particles + p] == GONE; }
+
+  /** Positions and radii of a frame into an array [n, 4], in m; z is 0 in 2D, and the radius of a
+   *  deleted particle. */
   places(k, out) {
     const n = this.particles;
     this.coordinates.forEach((channel, axis) => {
       const low = this.low[axis], step = this.step[axis];
       for (let p = 0, q = k * n; p < n; p++, q++) out[4 * p + axis] = low + step * channel[q];
     });
-    for (let p = 0; p < n; p++) out[4 * p + 3] = this.radius[p];
+    for (let p = 0; p < n; p++) out[4 * p + 3] = this.isGone(k, p) ? 0 : this.radius[p];
     return out;
   }
 
   velocity(k, p) {
     const at = k * this.particles + p;
-    return this.velocities.map(channel => (channel[at] - 127) * this.velocityStep);
+    return this.velocities.map(channel => (channel[at] - RESTING) * this.velocityStep);
   }
 
   /** Values of a quantity, but not of "body", at all particles of a frame. */
@@ -77,7 +83,7 @@ class Film {
     }
     out.fill(0);
     for (const channel of this.velocities)
-      for (let p = 0; p < n; p++) out[p] += (channel[at + p] - 127) ** 2;
+      for (let p = 0; p < n; p++) out[p] += (channel[at + p] - RESTING) ** 2;
     for (let p = 0; p < n; p++) out[p] = Math.sqrt(out[p]) * this.velocityStep;
     return out;
   }

@@ -12,6 +12,8 @@ class Log {
     const rows = [["step", String(film.steps[k])], ["time", withUnit(film.times[k], "s", 6)]];
     if (picked == null) {
       rows.push(["particle", "click one to see its values"]);
+    } else if (film.isGone(k, picked)) {
+      rows.push(["particle", `${picked}, which has left`]);
     } else {
       const velocity = film.velocity(k, picked), m = film.mass[picked];
       const place = film.coordinates.map((channel, axis) =>

@@ -147,9 +147,10 @@ class Page {
     const { places, film, camera } = this;
     let found = null, best = -Infinity;
     for (let p = 0; p < film.particles; p++) {
+      const radius = places[4 * p + 3];
       const [x, y, scale, toward] = camera.look(places.subarray(4 * p, 4 * p + 3));
       const away = Math.hypot(x - column, y - row);
-      if (!(away < Math.max(film.radius[p] * scale, FINGER))) continue;
+      if (radius == 0 || !(away < Math.max(radius * scale, FINGER))) continue;
       const merit = film.dimension == 3 ? toward : -away;
       if (merit > best) [found, best] = [p, merit];
     }
@@ -181,7 +182,7 @@ class Page {
     this.paint(ratio);
     const over = onPixels(byId("over"), ratio);
     ground.drawOver(over, camera);
-    if (picked != null) {
+    if (picked != null && !film.isGone(frame, picked)) {
       const place = this.places.subarray(4 * picked, 4 * picked + 3);
       ground.drawRing(over, camera, place, film.radius[picked]);
     }

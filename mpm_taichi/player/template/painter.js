@@ -44,7 +44,7 @@ void main() {
   reach = max(reach, 0.7);
   offset = corner * (reach + 1.0);
   vec2 at = middle + vec2(seen.x, -seen.y) * pixels + offset;
-  bool hidden = near < 0.1;
+  bool hidden = near < 0.1 || radius <= 0.0;
   if (shadow) {  // on the floor, where it lies flat
     vec3 spot = vec3(position.x, 0.0, position.z);
     hidden = hidden || any(lessThan(spot, vec3(0.0))) || any(greaterThan(spot, domain));

@@ -1,0 +1,32 @@
+"""Taichi keeps what it otherwise works out again after each `ti.init`: a fifth of the suite's time.
+
+To compile a kernel it reads the source of each function anew at each call, and draws for each node
+of the syntax tree a picture of its place, which only an error message shows.  Both depend on the
+source alone."""
+
+import functools
+
+from taichi.lang import kernel_impl
+from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext
+
+
+def _remembered(place_of):
+    """`ASTTransformerContext.get_pos_info`, once for each node of a function."""
+    known = {}
+
+    @functools.wraps(place_of)
+    def place(context, node):
+        at = node.lineno, node.end_lineno, node.col_offset, node.end_col_offset
+        key = context.func.func, type(node), at
+        if key not in known:
+            known[key] = place_of(context, node)
+        return known[key]
+
+    return place
+
+
+def install():
+    """For this process."""
+    ASTTransformerContext.get_pos_info = _remembered(ASTTransformerContext.get_pos_info)
+    for name in ("getsourcefile", "getsourcelines"):
+        setattr(kernel_impl, name, functools.cache(getattr(kernel_impl, name)))
