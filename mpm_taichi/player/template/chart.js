@@ -9,14 +9,19 @@ function withTotal(energies) {
   return { ...energies, total: energies.kinetic.map((_, i) => sum(i)) };
 }
 
+/** The series that are more than rounding errors. */
+function notZero(energies) {
+  const largest = name => Math.max(...energies[name].map(Math.abs));
+  const all = Math.max(...SERIES.map(largest));
+  return SERIES.filter(name => largest(name) > 1e-9 * all);
+}
+
 class Chart {
   constructor(film, canvas, key) {
     Object.assign(this, { film, canvas });
     this.curves = withTotal(film.history.curves);
     this.frames = withTotal(film.history.frames);
-    const largest = name => Math.max(...this.curves[name].map(Math.abs));
-    const all = Math.max(...SERIES.map(largest));
-    this.shown = SERIES.filter(name => largest(name) > 1e-9 * all);
+    this.shown = notZero(this.curves);
     const values = this.shown.flatMap(name => this.curves[name]);
     this.low = Math.min(0, ...values);
     this.high = Math.max(0, ...values);

@@ -1,9 +1,11 @@
 // The numbers of the moment: of the run, and of the picked particle.
 
 class Log {
-  constructor(film, element) {
-    Object.assign(this, { film, element });
-    this.values = new Float32Array(film.particles);
+  constructor(film) {
+    this.film = film;
+    this.energies = film.history && withTotal(film.history.frames);
+    this.shown = film.history ? notZero(this.energies) : [];
+    byId("sums-title").hidden = !film.history;
   }
 
   /** Rows of words and numbers; `picked` is the number of a particle, or null. */
@@ -30,15 +32,14 @@ class Log {
       }
       rows.push(["kinetic energy", withUnit(0.5 * m * Math.hypot(...velocity) ** 2, "J")]);
     }
-    for (const [name, energy] of Object.entries(film.history ? withTotal(film.history.frames) : {}))
-      rows.push([
-        name == "total" ? "energy of all" : `${name} energy of all`, withUnit(energy[k], "J", 4),
-      ]);
     return rows;
   }
 
   show(k, picked) {
-    this.element.replaceChildren(...definitions(this.rows(k, picked)));
+    byId("numbers").replaceChildren(...definitions(this.rows(k, picked)));
+    const inJoule = name => withUnit(this.energies[name][k], "J", 4);
+    const sums = this.shown.map(name => [`${name} energy`, inJoule(name)]);
+    byId("sums").replaceChildren(...definitions(sums));
   }
 }
 

@@ -9,7 +9,7 @@ class Page {
     this.camera = new Camera(film.domain.size);
     this.ground = new Ground(film, this.theme);
     this.colors = new Colors(film);
-    this.log = new Log(film, byId("numbers"));
+    this.log = new Log(film);
     this.chart = film.history && new Chart(film, byId("chart"), byId("key"));
     this.places = new Float32Array(4 * wholeRows(film.particles));
     this.frame = 0;
