@@ -60,28 +60,33 @@ def player(recording: Recording, every: int = 1) -> Player:
         "about": about(recording),
         "scene": dump_scene(recording.scene),
     }
-    text = page(header, base64.b64encode(zlib.compress(film.particle_bytes(), 9)).decode(), blocks)
+    particles = base64.b64encode(zlib.compress(film.particle_bytes(), 9)).decode("ascii")
+    text = page(header, particles, blocks)
     return Player(text, len(film.numbers), film.particles, checksum)
 
 
 def page(header: dict, particles: str, blocks: list[str]) -> str:
+    """The first frame stands before the script, so that it is seen while the others are read."""
     style, script = stylesheet(), "\n".join(template(f"{name}.js") for name in SCRIPTS)
     script = f'(() => {{\n"use strict";\n{script}}})();\n'
     policy = (
         f"default-src 'none'; script-src '{digest(script)}'; style-src '{digest(style)}'; "
         "base-uri 'none'; form-action 'none'"
     )
-    parts = [("particles", particles), *((f"block-{k}", block) for k, block in enumerate(blocks))]
+    first, *others = (data_element(f"block-{k}", block) for k, block in enumerate(blocks))
     return Template(template("player.html")).substitute(
         policy=html.escape(policy),
         title=html.escape(header["title"]),
         style=style,
         script=script,
         header=json.dumps(header, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        data="\n".join(
-            f'<script type="text/plain" id="data-{name}">{data}</script>' for name, data in parts
-        ),
+        first_frame="\n".join([data_element("particles", particles), first]),
+        other_frames="\n".join(others),
     )
+
+
+def data_element(name: str, data: str) -> str:
+    return f'<script type="text/plain" id="data-{name}">{data}</script>'
 
 
 def template(name: str) -> str:

@@ -9,6 +9,8 @@ async function open() {
   page.resize();
   page.drawNow();
   performance.mark("first frame");
+  if (document.readyState == "loading")  // the other frames come after the script
+    await new Promise(done => document.addEventListener("DOMContentLoaded", done, { once: true }));
   for (let block = 1; block < film.blocks; block++) {
     byId("message").textContent = `Loading ${Math.round(100 * film.loaded / film.times.length)} %`;
     await new Promise(resolve => setTimeout(resolve));
