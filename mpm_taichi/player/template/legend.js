@@ -11,21 +11,24 @@ class Colors {
 
   /** [n, 4] bytes of all particles of a frame, by a quantity. */
   of(quantity, k) {
-    const { film, values, bytes } = this, { bodies } = this.maps;
-    if (quantity.name == "body") {
-      film.body.forEach((body, p) => bytes.set(bodies[body % bodies.length], 4 * p));
-      return bytes;
+    const { bytes } = this, colorOf = this.rule(quantity, k);
+    for (let p = 0; p < this.values.length; p++) {
+      const color = colorOf(p);
+      bytes[4 * p] = color[0];
+      bytes[4 * p + 1] = color[1];
+      bytes[4 * p + 2] = color[2];
     }
+    return bytes;
+  }
+
+  /** Number of a particle -> its color. */
+  rule(quantity, k) {
+    const { film, values } = this, { bodies } = this.maps;
+    if (quantity.name == "body") return p => bodies[film.body[p] % bodies.length];
     film.values(quantity, k, values);
     const map = this.maps[quantity.map], last = map.length - 1, [low, high] = quantity.shown;
     const factor = last / (high - low);
-    for (let p = 0; p < values.length; p++) {
-      const shade = map[Math.min(Math.max(Math.round((values[p] - low) * factor), 0), last)];
-      bytes[4 * p] = shade[0];
-      bytes[4 * p + 1] = shade[1];
-      bytes[4 * p + 2] = shade[2];
-    }
-    return bytes;
+    return p => map[Math.min(Math.max(Math.round((values[p] - low) * factor), 0), last)];
   }
 
   /** Fills the element of the legend: a dot and a name for each body, or a bar with three ticks. */

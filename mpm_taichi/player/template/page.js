@@ -36,8 +36,8 @@ class Page {
   fillIn() {
     const { film } = this, cells = film.domain.cells.join(" \u00d7 ");
     byId("title").textContent = document.title = film.title;
-    byId("summary").textContent = `${film.particles.toLocaleString("en")} particles, ${cells} ` +
-      `cells, ${film.times.length} frames`;
+    byId("summary").textContent =
+      `${counted(film.particles, "particle")}, ${cells} cells, ${counted(this.last + 1, "frame")}`;
     byId("about").replaceChildren(...definitions(film.about));
     byId("scene").textContent = film.scene;
     byId("drag-words").textContent = film.dimension == 2

@@ -22,6 +22,11 @@ function plain(value, digits = 3) {
   return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
 }
 
+/** 2000, "particle" -> "2,000 particles". */
+function counted(count, noun) {
+  return `${count.toLocaleString("en")} ${noun}${count == 1 ? "" : "s"}`;
+}
+
 /** The longest of 1, 2 and 5 times a power of ten that is no longer than `longest`. */
 function roundLength(longest) {
   const power = 10 ** Math.floor(Math.log10(longest));
