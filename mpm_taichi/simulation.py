@@ -16,7 +16,7 @@ from .schedules import EverySeconds, even_step
 from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
-from .time_step import TimeStep
+from .time_step import Motion, TimeStep
 
 PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
@@ -58,7 +58,13 @@ class Simulation:
         self.initial_position = np.concatenate([body.undeformed for body in bodies])
         method = scene.method
         given = None if scene.time.step == "auto" else scene.time.step
-        self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
+        motion = Motion(
+            max(float(np.linalg.norm(body.v, axis=1).max()) for body in bodies),
+            max(float(np.linalg.norm(b.velocity_gradient, axis=(1, 2)).max()) for b in bodies),
+        )
+        self.time_step = TimeStep(
+            scene, given, scene.time.safety, self._half_width(bodies), motion, scene.time.enforce
+        )
         try:
             self.solver = Solver(
                 bodies, scene.domain.cells, scene.cell_size, method.basis_class,
@@ -79,10 +85,12 @@ class Simulation:
         }
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
-        self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
-        self.limit = self.time_step.limits(self.start_speed)[0]
+        self._look()
+        self.limits_at_start = self.time_step.limits(motion)
+        self.limit = self.limits_at_start[0]
+        self.time_step.refuse(self.limit)
         self.last_dt = 0.0
-        self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
+        self.dt = self._fitting(self.time_step.begin(), self.time)
         self.solver.start(self.dt)
 
     def _half_width(self, bodies):
@@ -146,32 +154,41 @@ class Simulation:
         dt = self.dt
         landing = self.time + 1.5 * dt > self.next_output
         time = self.next_output if landing else self.time + dt
-        self.dt = self.solver.step(
-            self.time, dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
-        )
-        self._note_steps(time, [dt])
+        dt_next = self._fitting(self.time_step.choose(), time)
+        motion = self.solver.step(self.time, dt, dt_next)
+        self.time_step.move(motion, self.time_step.strain + dt * motion.rate)
+        self.dt = dt_next
+        self._note_steps(time, [dt], [self.time_step.code])
         return landing
 
     def _take_whole_steps(self, most) -> bool:
         more = self.output_count + 1 < self.outputs.count
+        rule = self.time_step
         clock = Clock(
             self.time, self.dt, self.next_output,
             self.outputs.time(self.output_count + 2) if more else 0.0,
-            self.time_step.last, self.solver.drift,
+            rule.last, rule.motion.speed, rule.motion.rate, self.solver.drift, rule.strain,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
         self.solver.take_whole_steps(clock, int(min(most, MOST_TOGETHER, patience)))
-        self.dt, self.time_step.last = clock.dt, clock.last
-        self._note_steps(clock.time, clock.lengths.tolist())
+        self.dt, rule.last = clock.dt, clock.last
+        rule.move(Motion(clock.speed, clock.rate), clock.strain)
+        self._note_steps(clock.time, clock.lengths.tolist(), clock.bounds.tolist())
         landing = clock.time == self.next_output
         if not clock.is_good:
             self._fitting(clock.last, clock.time)  # says what is wrong with it
         return landing
 
-    def _note_steps(self, time, lengths):
+    def _note_steps(self, time, lengths, bounds):
         self.time, self.step_count, self.last_dt = time, self.step_count + len(lengths), lengths[-1]
-        for dt in lengths:
-            self.time_step.note(dt, self.limit)
+        self.time_step.note(lengths, bounds)
+        if self.time_step.is_look_due:
+            self._look()
+
+    def _look(self):
+        """At the stiffness that all particles have now."""
+        self.time_step.see(self.solver.stiffness())
+        self.solver.pace = self.time_step.pace
 
     def run(self, recorders=()) -> None:
         """Step to the end.  Each recorder sees the start, every output and every step; one that has
@@ -255,8 +272,12 @@ class Simulation:
                 count = int(np.nansum(law.state.get_member_field(name).to_numpy(), dtype=float))
                 if count:
                     found[f"{words} (counted each step)"] = count
-        if self.time_step.too_long:
-            found[f"steps longer than the {self.limit.name} limit"] = self.time_step.too_long
+        if self.time_step.shortened:
+            found["steps shorter than time.step, since a limit asked for it"] = (
+                self.time_step.shortened
+            )
+        elif self.time_step.is_too_long(self.limit):
+            found[f"steps longer than the {self.limit.name} limit"] = self.step_count
         return found
 
     def describe_particle(self, number: int) -> str:

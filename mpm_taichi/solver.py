@@ -15,10 +15,13 @@ from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.sort import sort
 from .kernels.start_moments import start_moments
+from .kernels.stiffness import stiffest
 from .kernels.update_stress import update_stress
 from .kernels.whole_steps import Clock, whole_steps
 from .kernels.wrap import wrap
+from .materials import Material
 from .particles import Particles
+from .time_step import Motion, Stiffness
 from .transfers import FlipPart
 
 FEW = 8192
@@ -61,8 +64,7 @@ class Solver:
         few = self.particles.count <= FEW and not atomic
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
-        if self.is_whole:
-            self.pace = self._pace_field(pace)
+        self.pace = pace
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -78,17 +80,6 @@ class Solver:
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
 
-    def _pace_field(self, pace):
-        """The rule on the device, with the FLIP part of a blend; f64 in every run."""
-        numbers = pace._asdict() | {
-            "flip_ratio": self.flip_part.ratio,
-            "flip_rate": self.flip_part.rate,
-        }
-        field = ti.Struct.field(dict.fromkeys(numbers, ti.f64), shape=())
-        for name, number in numbers.items():
-            field[None][name] = number
-        return field
-
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
         self.update(0.0, dt)
@@ -101,8 +92,7 @@ class Solver:
             )
 
     def sort_if_due(self):
-        """Slabs leave room for one cell of drift.  Particles move with sum_i w_i v_i, the weights
-        are >= 0 and sum to 1: none is faster than the fastest node."""
+        """Slabs leave room for one cell of drift, of which the steps taken tell exactly."""
         if not self.drift < 0.99:
             if self.grid.periodic:
                 wrap(self.particles, self.grid)
@@ -110,9 +100,8 @@ class Solver:
             self.drift = 0.0
             self.sorts += 1
 
-    def step(self, time, dt, choose_dt):
-        """Advance from `time` by dt [s]; choose_dt(speed) gives the length of the next step from
-        the largest nodal speed [m/s].  Returns that length.
+    def step(self, time, dt, dt_next) -> Motion:
+        """Advance from `time` by dt [s], the next step being of length dt_next.
 
         USL (update stress last) takes the velocity gradient L from the new velocities of the nodes,
         which makes F the gradient of the motion; its impulse is that of the next step.  USF (first)
@@ -123,8 +112,6 @@ class Solver:
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
         self.map_motion(time, dt)
-        speed = sqrt(self.grid.speed_squared[None])
-        dt_next = choose_dt(speed)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
         elif self.stress_update == "usf":
@@ -133,8 +120,9 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        self.drift += dt * speed / self.grid.dx
-        return dt_next
+        motion = Motion(sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None]))
+        self.drift += dt * motion.speed / self.grid.dx
+        return motion
 
     def take_whole_steps(self, clock: Clock, most: int):
         """Up to `most` steps as `step` would take them, in one launch."""
@@ -142,9 +130,16 @@ class Solver:
         clock.drift = self.drift
         whole_steps(
             self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
-            self.body_force, self.pace, clock, most,
+            self.body_force, self.flip_part, self.pace, clock, most,
         )  # fmt: skip
         self.drift = clock.drift
+
+    def stiffness(self) -> dict[Material, Stiffness]:
+        """Of each material now."""
+        return {
+            group.material: Stiffness(*stiffest(self.particles, group, self.grid))
+            for group in self.particles.groups
+        }
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

@@ -116,7 +116,7 @@ def test_scalars_of_yaml_1_2(text, value):
 def test_numbers_of_the_scene_are_plain(load):
     """Python's own floats, also where the file has integers: no type of a YAML library."""
     scene = load(TEXT)
-    assert plain_types(scene.model_dump()) <= {float, int, str, type(None)}
+    assert plain_types(scene.model_dump()) <= {float, int, bool, str, type(None)}
     assert type(scene.materials["rubber"].youngs_modulus) is float
     assert type(scene.bodies[1].shape.max[0]) is float
 

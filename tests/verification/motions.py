@@ -47,7 +47,7 @@ def restart(solver, x, v, V0):
 def advance(solver, dt, steps):
     solver.start(dt)
     for step in range(steps):
-        solver.step(step * dt, dt, lambda speed: dt)
+        solver.step(step * dt, dt, dt)
 
 
 def snapshot(solver):
