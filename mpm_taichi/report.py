@@ -43,10 +43,9 @@ class Report:
                 "shortest": time_step.shortest if simulation.step_count else None,
                 "longest": time_step.longest if simulation.step_count else None,
                 "chosen_by": "scene" if time_step.given is not None else "auto",
-                "longer_than_limit": time_step.too_long,
-                "limits_at_start": [
-                    limit._asdict() for limit in time_step.limits(simulation.start_speed)
-                ],
+                "shortened": time_step.shortened,
+                "binding": dict(time_step.counts),
+                "limits_at_start": [limit._asdict() for limit in simulation.limits_at_start],
             },
             "seeding": [dataclasses.asdict(report) for report in simulation.seeding],
             "memory": simulation.memory.summary(),

@@ -104,7 +104,7 @@ def announce(simulation, console):
         f"{scene.method.basis} basis, {scene.method.transfer.type}",
         soft_wrap=True,
     )  # fmt: skip
-    for line in simulation.time_step.describe(simulation.start_speed, simulation.dt):
+    for line in simulation.time_step.describe(simulation.dt):
         console.print(line, soft_wrap=True)
 
 

@@ -17,10 +17,13 @@ from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.sort import sort, take_up
 from .kernels.start_moments import start_moments
+from .kernels.stiffness import stiffest
 from .kernels.update_stress import update_stress
 from .kernels.whole_steps import Clock, whole_steps
 from .kernels.wrap import wrap
+from .materials import Material
 from .particles import Particles
+from .time_step import Motion, Stiffness
 from .transfers import FlipPart
 
 FEW = 8192
@@ -63,10 +66,7 @@ class Solver:
         few = self.particles.count <= FEW and not atomic
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
-        if self.is_whole:
-            numbers = dict.fromkeys(self._of_pace(pace), ti.f64)  # f64 in every run
-            self.pace: Any = ti.Struct.field(numbers, shape=())
-            self.put_pace(pace)
+        self.pace = pace
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -82,19 +82,6 @@ class Solver:
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
 
-    def _of_pace(self, pace):
-        """The rule on the device, with the FLIP part of a blend."""
-        return pace._asdict() | {
-            "flip_ratio": self.flip_part.ratio,
-            "flip_rate": self.flip_part.rate,
-        }
-
-    def put_pace(self, pace):
-        """The rule of the steps to come, for those that the device chooses."""
-        if self.is_whole:
-            for name, number in self._of_pace(pace).items():
-                self.pace[None][name] = number
-
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
         self.update(0.0, dt)
@@ -107,8 +94,7 @@ class Solver:
             )
 
     def sort_if_due(self):
-        """Slabs leave room for one cell of drift.  Particles move with sum_i w_i v_i, the weights
-        are >= 0 and sum to 1: none is faster than the fastest node."""
+        """Slabs leave room for one cell of drift, of which the steps taken tell exactly."""
         if not self.drift < 0.99:
             if self.grid.periodic:
                 wrap(self.particles, self.grid)
@@ -116,9 +102,8 @@ class Solver:
             self.drift = 0.0
             self.sorts += 1
 
-    def step(self, time, dt, choose_dt):
-        """Advance from `time` by dt [s]; choose_dt(speed) gives the length of the next step from
-        the largest nodal speed [m/s].  Returns that length.
+    def step(self, time, dt, dt_next) -> Motion:
+        """Advance from `time` by dt [s], the next step being of length dt_next.
 
         USL (update stress last) takes the velocity gradient L from the new velocities of the nodes,
         which makes F the gradient of the motion; its impulse is that of the next step.  USF (first)
@@ -129,8 +114,6 @@ class Solver:
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
         self.map_motion(time, dt)
-        speed = sqrt(self.grid.speed_squared[None])
-        dt_next = choose_dt(speed)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
         elif self.stress_update == "usf":
@@ -139,8 +122,9 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        self.drift += dt * speed / self.grid.dx
-        return dt_next
+        motion = Motion(sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None]))
+        self.drift += dt * motion.speed / self.grid.dx
+        return motion
 
     def take_whole_steps(self, clock: Clock, most: int):
         """Up to `most` steps as `step` would take them, in one launch."""
@@ -148,7 +132,7 @@ class Solver:
         clock.drift = self.drift
         whole_steps(
             self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
-            self.body_force, self.pace, clock, most,
+            self.body_force, self.flip_part, self.pace, clock, most,
         )  # fmt: skip
         self.drift = clock.drift
 
@@ -176,6 +160,13 @@ class Solver:
         bring_in(self.particles, self.grid, deletes, lightest)
         if deletes:
             self.drift = inf  # they are far from where the sort has found them
+
+    def stiffness(self) -> dict[Material, Stiffness]:
+        """Of each material now."""
+        return {
+            group.material: Stiffness(*stiffest(self.particles, group, self.grid))
+            for group in self.particles.groups
+        }
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

@@ -23,7 +23,6 @@ def apply_walls(v, i, grid: Template, walls: Template):
 
 @ti.func
 def update_node(i, grid: Template, walls: Template, gravity: Template, dt):
-    """Returns |v|^2 of the node."""
     lanes = grid.node[i]
     mass = lanes[grid.dim]
     v = ti.Vector.zero(float, grid.dim)
@@ -44,21 +43,17 @@ def update_node(i, grid: Template, walls: Template, gravity: Template, dt):
         if ti.static(grid.increment):
             for d in ti.static(range(grid.dim)):
                 grid.node[i + grid.apart][d] = v[d] - v_old[d]
-    return v.norm_sqr()
 
 
 @ti.func
 def update_share(grid: Template, walls: Template, gravity: Template, dt, worker, workers):
     blocks = active_blocks(grid)
-    fastest = 0.0
     for block in range(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = first_active_node(block, grid)
         for i in range(first, first + grid.node_block):
-            speed_squared = update_node(i, grid, walls, gravity, dt)
-            fastest = ti.max(fastest, speed_squared)
-    ti.atomic_max(grid.speed_squared[None], fastest)
+            update_node(i, grid, walls, gravity, dt)
 
 
 @ti.kernel
@@ -75,5 +70,5 @@ def grid_update(grid, walls, gravity, dt):
 
     A node no heavier than the relative cut-off of its basis stands still and is counted in
     `grid.cut`.  On return a node holds (v, m), with `grid.increment` also v - v_old in the record
-    apart, and `grid.speed_squared` the largest |v_i|^2."""
+    apart."""
     update_nodes(grid, walls, gravity, dt, grid.node_workers)

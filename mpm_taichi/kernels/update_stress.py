@@ -38,6 +38,7 @@ def update_particle(
     p, particles: Template, law: Template, material, grid: Template, transfer: Template,
     dt, dt_next, alpha, velocity: Template, stress: Template, move: Template,
 ):  # fmt: skip
+    """Returns |v_pic|^2 and |L|^2, the sum of squares."""
     dim = ti.static(grid.dim)
     g = grid.constants[None]
     m = particles.m[p]
@@ -69,6 +70,7 @@ def update_particle(
         x = particles.x[p] + dt * v_pic
         particles.x[p] = x
         note_if_lost(p, x, particles, grid)
+    return v_pic.norm_sqr(), L.norm_sqr()
 
 
 @ti.func
@@ -78,15 +80,24 @@ def stress_share(
     velocity: Template, stress: Template, move: Template, worker, workers,
 ):  # fmt: skip
     blocks = blocks_of(end - begin, grid.block)
+    fastest, steepest = 0.0, 0.0
     for block in range(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = begin + block * grid.block
         for p in range(first, ti.min(first + grid.block, end)):
-            update_particle(
+            speed_squared, rate_squared = update_particle(
                 p, particles, law, material, grid, transfer, dt, dt_next, alpha,
                 velocity, stress, move,
             )  # fmt: skip
+            if ti.static(move):  # ti.max would spoil the packing of lanes
+                if speed_squared > fastest:
+                    fastest = speed_squared
+                if rate_squared > steepest:
+                    steepest = rate_squared
+    if ti.static(move):
+        ti.atomic_max(grid.speed_squared[None], fastest)
+        ti.atomic_max(grid.rate_squared[None], steepest)
 
 
 @ti.kernel
@@ -113,7 +124,8 @@ def update_stress(
 
     On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
-    has left the closed domain, or the number of particles."""
+    has left the closed domain, or the number of particles; and once particles have moved the grid
+    has the largest |sum_i w_ip v_i|^2 and |L|^2 of this step."""
     update_particles(
         particles, group.law, group.number, grid, transfer, group.begin, group.end,
         dt, dt_next, alpha, velocity, stress, move, grid.workers(group.end - group.begin),

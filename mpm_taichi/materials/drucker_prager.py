@@ -92,6 +92,15 @@ class DruckerPrager(Flowing):
 
     @staticmethod
     @ti.func
+    def moduli(c, H, s):
+        """Flow without dilation is stiffer than no flow where sand expands and is sheared back:
+        volume v and shear q along dev tau give A K v q instead of 2 mu q^2."""
+        wave, lone = Flowing.moduli(c, H, s)
+        extra = (c.slope * (c.lam + 2.0 / 3.0 * c.mu)) ** 2 / (8.0 * c.mu)
+        return wave + extra, lone + H.n * extra
+
+    @staticmethod
+    @ti.func
     def volume_ratio(c, H, s):
         return Flowing.volume_ratio(c, H, s) * (1.0 + exp_less_one(s.opened))
 

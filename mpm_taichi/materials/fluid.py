@@ -87,6 +87,14 @@ class Fluid(MaterialLaw):
 
     @staticmethod
     @ti.func
+    def moduli(c, H, s):
+        """rho0 c^2 = K J^(1 - gamma); for a lone particle the pressure comes off, J p per axis."""
+        strain = volume_strain(H)
+        wave = c.bulk_modulus * (1.0 + exp_less_one((1.0 - c.exponent) * log_volume_ratio(strain)))
+        return wave, H.n * (wave - (1.0 + strain) * Fluid.pressure(c, strain))
+
+    @staticmethod
+    @ti.func
     def energy_density(c, H, s):
         """int p d(-J) from J = 1."""
         strain = volume_strain(H)

@@ -19,4 +19,4 @@ class Grid:
         self.m = np.zeros(self.shape)
         self.mv, self.impulse, self.v_old, self.v = np.zeros((4, *self.shape, self.dim))
         self.residual = np.zeros_like(self.mv)
-        self.speed_squared, self.cut = 0.0, 0
+        self.speed_squared, self.rate_squared, self.cut = 0.0, 0.0, 0

@@ -57,15 +57,14 @@ class Solver:
                 self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
             )
 
-    def step(self, time, dt, choose_dt):
-        """Advance from `time` by dt [s]; returns the length of the next step, choose_dt(speed)."""
+    def step(self, time, dt, dt_next):
+        """Advance from `time` by dt [s], the next step being of length dt_next; returns the largest
+        |sum_i w_i v_i| [m/s] and |L| [1/s] of all particles."""
         wrap(self.particles, self.grid)
         if self.stress_update == "usf":
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
         self.map_motion(time, dt)
-        speed = sqrt(self.grid.speed_squared)
-        dt_next = choose_dt(speed)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
         elif self.stress_update == "usf":
@@ -74,7 +73,7 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        return dt_next
+        return sqrt(self.grid.speed_squared), sqrt(self.grid.rate_squared)
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

@@ -142,6 +142,11 @@ class Time(Model):
     safety: float = Field(
         default=0.5, gt=0, le=1, description="fraction of the stable step used by auto"
     )
+    enforce: bool = Field(
+        default=True,
+        description="false: take exactly the given step, also above the limits of stability; true: "
+        "refuse it there, and shorten it where limits fall below it during the run",
+    )
 
 
 class Body(Model):

@@ -316,10 +316,14 @@ def test_another_architecture_in_the_environment(monkeypatch, capfd):
 
 def test_check_runs_nothing(tmp_path, monkeypatch, capfd):
     """`check` seeds and plans, on stderr: particles, device, step, number of steps and outputs; no
-    folder is made.  A step above the limit gives a warning, here acoustic: 0.76 0.9 dx / (c + |v|)
-    with c^2 = 1.346 (nu = 0.3, E = rho) and |v| = 0.1414 is 0.0263."""
+    folder is made.  A step above the limit is refused, here acoustic: 0.76 0.9 dx / (c + |v|) with
+    c^2 = 1.346 (nu = 0.3, E = rho) and |v| = 0.1414 is 0.0263; or warned of, where the scene asks
+    to have it as it is."""
     monkeypatch.chdir(tmp_path)
-    assert cli.main(["--frames", "7", "check", str(LATTICE), "--set", "time.step=0.05"]) == 0
+    words = ["--frames", "7", "check", str(LATTICE), "--set", "time.step=0.05"]
+    assert cli.main(words) == 2
+    assert "longer than the acoustic limit of 0.02627 s" in capfd.readouterr().err
+    assert cli.main([*words, "--set", "time.enforce=false"]) == 0
     out, err = capfd.readouterr()
     assert out == ""
     assert "lower: 208 particles" in err

@@ -29,4 +29,3 @@ def grid_update(grid, walls, gravity, dt):
             grid.v_old[i] = apply_walls(v_old, i, grid, walls)
         elif grid.m[i] > 0:
             grid.cut += 1
-    grid.speed_squared = (grid.v**2).sum(axis=-1).max()

@@ -17,7 +17,8 @@ def update_stress(
     H <- H + dt L (I + H), stress and state by the law; x <- x + dt sum_i w_ip v_i.
 
     On return A and T = - dt_next V0 tau are what P2G scatters; `particles.lost` is the least id of
-    a particle outside the closed domain, or the number of particles."""
+    a particle outside the closed domain, or the number of particles; once particles have moved the
+    grid has the largest |sum_i w_ip v_i|^2 and |L|^2 of this step."""
     c = group.constants
     for p in group.members:
         L = particles.S[p]
@@ -37,4 +38,6 @@ def update_stress(
             particles.A[p] = transfer.affine_momentum(m, C, T, grid.inverse_moment)
         if move:
             particles.x[p] = particles.x[p] + dt * particles.v_pic[p]
+            grid.speed_squared = max(grid.speed_squared, (particles.v_pic[p] ** 2).sum())
+            grid.rate_squared = max(grid.rate_squared, (L**2).sum())
             note_if_lost(p, particles.x[p], particles, grid)

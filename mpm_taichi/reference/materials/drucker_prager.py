@@ -35,6 +35,13 @@ class DruckerPrager(Flowing):
         return H, s, Hencky.stress(c, e, volume)
 
     @staticmethod
+    def moduli(c, H, s):
+        """Flow without dilation is stiffer than no flow where sand expands and is sheared back."""
+        wave, lone = Flowing.moduli(c, H, s)
+        extra = (c.slope * (c.lam + 2 / 3 * c.mu)) ** 2 / (8 * c.mu)
+        return wave + extra, lone + len(H) * extra
+
+    @staticmethod
     def volume_ratio(c, H, s):
         return Flowing.volume_ratio(c, H, s) * (1 + exp_less_one(s.opened))
 
