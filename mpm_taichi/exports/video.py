@@ -15,12 +15,13 @@ FASTEST_GIF = 50
 """Pictures a second: a GIF counts in hundredths of a second, and many programs refuse one."""
 
 MP4 = (
-    # yuv420p, which every player knows, wants even sizes; without the matrix, which is that of
-    # high-definition television, players guess one and colors shift.
+    # yuv420p, which every player knows, wants even sizes; where a file does not say how its colors
+    # are made of that (here as in high-definition television), players guess, and colors shift.
     "-an -c:v libx264 -preset medium -crf 18 -pix_fmt yuv420p -vf "
     "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x10131a,"
-    "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int "
-    "-colorspace bt709 -color_primaries bt709 -color_trc bt709 -movflags +faststart -f mp4"
+    "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
+    "setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=bt709 "
+    "-movflags +faststart -f mp4"
 )
 
 

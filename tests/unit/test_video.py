@@ -38,7 +38,9 @@ def frames_of(file: Path) -> list[np.ndarray]:
         import imageio_ffmpeg
 
         reader = imageio_ffmpeg.read_frames(file)
-        width, height = next(reader)["size"]
+        said = next(reader)
+        assert "yuv420p(tv, bt709," in said["pix_fmt"]  # or players guess, each another matrix
+        width, height = said["size"]
         return [np.frombuffer(frame, np.uint8).reshape(height, width, 3) for frame in reader]
     frames = []
     with Image.open(file) as movie:
