@@ -282,7 +282,7 @@ def test_a_library_that_is_missing(tmp_path):
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),
         ([], "the following arguments are required: COMMAND"),
-        (["run"], "the following arguments are required: scene"),
+        (["run"], "name a scene file: python -m mpm_taichi SCENE.yaml"),
         ([str(LATTICE), "--frames", "0"], "must be a whole number from 1 on (got '0')"),
         ([str(LATTICE), "--threads", "-1"], "must be a whole number from 1 on (got '-1')"),
         ([str(LATTICE), "--threads", "1025"], "--threads: at most 1024 (got 1025)"),
