@@ -166,7 +166,6 @@ class SmallScene:
             function()
 
     def _whole(self):
-        self.clock.strain = 0.0
         self.whole.take_whole_steps(self.clock, TOGETHER)
         return len(self.clock.lengths)
 

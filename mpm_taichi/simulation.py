@@ -214,7 +214,7 @@ class Simulation:
         time = self.next_output if landing else self.time + dt
         dt_next = self._fitting(self.time_step.choose(), time)
         motion = self.solver.step(self.time, dt, dt_next)
-        self.time_step.move(motion, self.time_step.strain + dt * motion.rate)
+        self.time_step.move(dt, motion)
         self.dt = dt_next
         self._note_steps(time, [dt], [self.time_step.code])
         return landing
@@ -225,13 +225,13 @@ class Simulation:
         clock = Clock(
             self.time, self.dt, self.next_output,
             self.outputs.time(self.output_count + 2) if more else 0.0,
-            rule.last, rule.motion.speed, rule.motion.rate, self.solver.drift, rule.strain,
+            rule.last, rule.motion.speed, rule.motion.rate, self.solver.drift, rule.strain_left,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
         together = min(most, MOST_TOGETHER, patience, self.guard_steps)
         self.solver.take_whole_steps(clock, int(together))
-        self.dt, rule.last = clock.dt, clock.last
-        rule.move(Motion(clock.speed, clock.rate), clock.strain)
+        self.dt, rule.last, rule.strain_left = clock.dt, clock.last, clock.strain_left
+        rule.motion = Motion(clock.speed, clock.rate)
         self._note_steps(clock.time, clock.lengths.tolist(), clock.bounds.tolist())
         landing = clock.time == self.next_output
         if not clock.is_good:

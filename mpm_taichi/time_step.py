@@ -15,13 +15,12 @@ particle only w times that.  Nothing breaks where a particle moves further than 
 the sort adds up what particles have moved; the motion is only resolved less well.
 
 The motion is that of the step before, of which an impact may make much more within one step: a
-reason for `safety`.  Stiffness is looked at anew whenever some particle may have been strained by
-`LOOK_AFTER` since the last time, which changes c by a factor of 1.1 (solids) to 1.7 (Tait's fluid
-under pressure): less than `safety` leaves.
+reason for `safety`.  Stiffness is looked at anew before that of any particle can have tripled,
+which changes c by less than the factor that a safety of 0.5 leaves.
 """
 
 from collections import Counter
-from math import hypot, inf, sqrt
+from math import hypot, inf, log, sqrt
 from typing import Any, NamedTuple
 
 from .errors import InputError
@@ -30,9 +29,6 @@ GROWTH = 1.02
 """The length that a step may have shrinks at once and grows by at most this factor from one step to
 the next: steps that follow the phase of an oscillation would feed energy into it.  Steps are cut
 further, at most in half, to land on outputs."""
-
-LOOK_AFTER = 0.1
-"""Strain: the sum of dt |grad v|, largest of all particles in each step."""
 
 HUGE = 1e150
 """A limit [s] that limits nothing, and the inverse of a speed that counts as none."""
@@ -103,9 +99,10 @@ class TimeStep:
     where a limit asks for it, unless `enforce` is false.
 
     `counts` tells how many steps each limit has bound, or the given length, or GROWTH; `binders`
-    the last limit of each name that did.  `motion` is that of the last step; half_width [cells]: of
-    the smallest particle, which a basis may take as extended.  `reduction` shortens all steps,
-    after an attempt that has failed."""
+    the last limit of each name that did.  `motion` is that of the last step, `strain_left` what
+    particles may be strained before their stiffness has to be seen; half_width [cells]: of the
+    smallest particle, which a basis may take as extended.  `reduction` shortens all steps, after an
+    attempt that has failed."""
 
     def __init__(self, scene, given, safety, half_width=0.25, motion=None, enforce=True):
         self.scene, self.given, self.safety = scene, given, safety
@@ -114,7 +111,7 @@ class TimeStep:
         self.isolated = method.transfer_class.isolated_limit(method.basis_class, half_width)
         self.materials = {body.material: scene.materials[body.material] for body in scene.bodies}
         self.reduction = 1.0
-        self.last, self.strain, self.code = inf, 0.0, 0
+        self.last, self.code = inf, 0
         self.shortest, self.longest = inf, 0.0
         self.counts: Counter[str] = Counter()
         self.binding, self.binders = BOUNDS[0], {}
@@ -128,7 +125,9 @@ class TimeStep:
 
     def see(self, stiffness: dict[Any, Stiffness]) -> None:
         """The stiffness of each material now: it decides until the next look."""
-        self.stiffness, self.strain = stiffness, 0.0
+        self.stiffness = stiffness
+        steepest = max(m.stiffening(self.scene.dimension) for m in self.materials.values())
+        self.strain_left = log(3) / steepest
         at_rest = self.limits(Motion())
         acoustic = [limit for limit in at_rest if limit.name == "acoustic"]
         others = [limit for limit in at_rest if limit.name != "acoustic"]
@@ -156,7 +155,7 @@ class TimeStep:
     @property
     def is_look_due(self) -> bool:
         """Whether the stiffness may have changed since it was seen."""
-        return not self.strain < LOOK_AFTER
+        return not self.strain_left > 0
 
     def limits(self, motion: Motion) -> list[Limit]:
         """All limits in a motion, shortest first."""
@@ -193,9 +192,10 @@ class TimeStep:
         self.last, self.code = self.pace.step(self.motion, self.last)
         return self.last
 
-    def move(self, motion: Motion, strain: float) -> None:
-        """The motion of a step, and the sum of dt |grad v| since the stiffness was seen."""
-        self.motion, self.strain = motion, strain
+    def move(self, dt: float, motion: Motion) -> None:
+        """Take note of the motion in a step."""
+        self.motion = motion
+        self.strain_left -= dt * motion.rate
 
     def note(self, lengths, codes) -> None:
         """Remember steps that were taken, and for each which of BOUNDS binds the one after it."""
@@ -245,7 +245,7 @@ class TimeStep:
         """All that later steps depend on, and the counts, as JSON can hold them."""
         return {
             "last": self.last, "code": self.code, "binding": self.binding,
-            "motion": list(self.motion), "strain": self.strain,
+            "motion": list(self.motion), "strain_left": self.strain_left,
             "stiffness": [list(self.stiffness[m]) for m in self.materials.values()],
             "reduction": self.reduction, "shortest": self.shortest, "longest": self.longest,
             "counts": dict(self.counts),
@@ -258,7 +258,7 @@ class TimeStep:
         self.see({material: Stiffness(*values) for material, values in seen})
         self.motion, self.counts = Motion(*state["motion"]), Counter(state["counts"])
         self.binders = {values[0]: Limit(*values) for values in state["binders"]}
-        for name in ("last", "code", "binding", "strain", "reduction", "shortest", "longest"):
+        for name in ("last", "code", "binding", "strain_left", "reduction", "shortest", "longest"):
             setattr(self, name, state[name])
 
     def describe(self, dt: float) -> list[str]:

@@ -21,14 +21,17 @@ def look_share(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = begin + block * size
+        wave_most, wave_place, lone_most, lone_place = 0.0, 0, 0.0, 0
         for p in range(first, ti.min(first + size, end)):
             wave, lone = law.kind.moduli(
                 law.constants[material], particles.H[p], load_state(law, p)
             )
-            if wave > largest[block, WAVE]:
-                largest[block, WAVE], places[block, WAVE] = wave, particles.id[p]
-            if lone > largest[block, LONE]:
-                largest[block, LONE], places[block, LONE] = lone, particles.id[p]
+            if wave > wave_most:
+                wave_most, wave_place = wave, p
+            if lone > lone_most:
+                lone_most, lone_place = lone, p
+        largest[block, WAVE], places[block, WAVE] = wave_most, particles.id[wave_place]
+        largest[block, LONE], places[block, LONE] = lone_most, particles.id[lone_place]
 
 
 @ti.kernel

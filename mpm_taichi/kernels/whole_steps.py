@@ -5,6 +5,7 @@ all the work of a thousand particles.  Here the stages follow each other without
 in the order of `Solver.step` for USL, and the device chooses the length of the next step."""
 
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 import taichi as ti
@@ -12,7 +13,6 @@ import taichi as ti
 from ..runtime import Array, Template
 from ..schedules import MOST
 from ..stages import stage
-from ..time_step import LOOK_AFTER
 from .body_force import push_share
 from .clear import clear_share
 from .g2p import gather_share
@@ -22,7 +22,7 @@ from .p2g import scatter_share
 from .time_step import even_step, longest_step
 from .update_stress import stress_share
 
-TIME, DT, TARGET, AFTER, LAST, SPEED, RATE, DRIFT, STRAIN, TAKEN, ON, GOOD = range(12)
+TIME, DT, TARGET, AFTER, LAST, SPEED, RATE, DRIFT, LEFT, TAKEN, ON, GOOD = range(12)
 
 
 @dataclass
@@ -30,7 +30,8 @@ class Clock:
     """Where a run is, and how far it may go: `time` [s], the length `dt` [s] of the next step, the
     longest that the rule allowed `last`; `target` and `after`, the times of the next two outputs
     (after: 0 if there is none); the largest `speed` [m/s] and `rate` [1/s] of the last step; the
-    `drift` [cells] of particles since they were sorted and their `strain` since it was looked at.
+    `drift` [cells] of particles since they were sorted, and the `strain_left` to them until their
+    stiffness has to be seen.
 
     `lengths` [s] are those of the steps taken, `bounds` (of mpm_taichi/time_step.py) what bound the
     one after each; `is_good`: the next is a number, not too short."""
@@ -43,7 +44,7 @@ class Clock:
     speed: float
     rate: float
     drift: float
-    strain: float = 0.0
+    strain_left: float = inf
     lengths: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bounds: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
     is_good: bool = True
@@ -105,7 +106,7 @@ def take_step(
     clock[SPEED] = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
     clock[RATE] = ti.sqrt(ti.cast(grid.rate_squared[None], ti.f64))
     clock[DRIFT] += dt * clock[SPEED] * grid.constants[None].inv_dx
-    clock[STRAIN] += dt * clock[RATE]
+    clock[LEFT] -= dt * clock[RATE]
     clock[GOOD] = 0.0
     if goal == 0.0 or goal - end < float(MOST) * longest:
         clock[GOOD] = 1.0
@@ -113,7 +114,7 @@ def take_step(
         landing
         or clock[GOOD] == 0.0
         or clock[DRIFT] >= 0.99
-        or clock[STRAIN] >= LOOK_AFTER
+        or clock[LEFT] <= 0.0
         or particles.lost[None] < particles.count
     ):
         clock[ON] = 0.0
@@ -145,7 +146,7 @@ def whole_steps(
     how far that was."""
     numbers = np.array([
         clock.time, clock.dt, clock.target, clock.after, clock.last, clock.speed, clock.rate,
-        clock.drift, clock.strain, 0, 1, 1,
+        clock.drift, clock.strain_left, 0, 1, 1,
     ])  # fmt: skip
     lengths, bounds = np.zeros(most), np.zeros(most, np.int32)
     take_steps(
@@ -154,6 +155,6 @@ def whole_steps(
     )  # fmt: skip
     clock.time, clock.dt, clock.last = map(float, numbers[[TIME, DT, LAST]])
     clock.speed, clock.rate = map(float, numbers[[SPEED, RATE]])
-    clock.drift, clock.strain = map(float, numbers[[DRIFT, STRAIN]])
+    clock.drift, clock.strain_left = map(float, numbers[[DRIFT, LEFT]])
     clock.is_good, taken = bool(numbers[GOOD]), int(numbers[TAKEN])
     clock.lengths, clock.bounds = lengths[:taken], bounds[:taken]

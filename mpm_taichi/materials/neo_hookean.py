@@ -27,10 +27,11 @@ class NeoHookean(Elastic):
     @staticmethod
     @ti.func
     def moduli(c, H, s):
-        """rho0 c^2 = mu s^2 + mu + lam (1 - ln J), s the stretch along the wave."""
+        """rho0 c^2 = mu s^2 + mu + lam (1 - ln J), s the stretch along the wave; ln J is at
+        least 1 - 1/J."""
         _least, most = squared_stretches(H)
-        along = c.mu + c.lam * (1.0 - log_volume_ratio(volume_strain(H)))
-        return ti.max(along, 0.0) + c.mu * most, H.n * ti.max(c.lam, 0.0) + 2.0 * c.mu * most
+        along = c.mu + ti.max(c.lam, c.lam / (1.0 + volume_strain(H)))
+        return along + c.mu * most, H.n * ti.max(c.lam, 0.0) + 2.0 * c.mu * most
 
     @staticmethod
     @ti.func

@@ -1,7 +1,7 @@
 """Snow: Stomakhin, Schroeder, Chai, Teran and Selle (2013), A material point method for snow
 simulation, ACM Trans. Graph. 32, sections 4 to 6."""
 
-from math import log
+from math import log, sqrt
 from typing import Any, Literal
 
 import taichi as ti
@@ -45,6 +45,10 @@ class Snow(Elastic):
         """plastic_volume: J_P - 1 [-]; dissipated: energy per reference volume [J/m^3]; capped:
         number of steps."""
         return {"plastic_volume": 0.0, "dissipated": 0.0, "capped": 0.0}
+
+    def stiffening(self, dim: int) -> float:
+        """Packed, it hardens by exp(xi) per J_P."""
+        return self.hardening * sqrt(dim) + super().stiffening(dim)
 
     @staticmethod
     @ti.func

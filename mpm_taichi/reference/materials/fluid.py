@@ -32,8 +32,9 @@ class Fluid(MaterialLaw):
     def moduli(c, H, s):
         """rho0 c^2 = K J^(1 - gamma); for a lone particle the pressure comes off, J p per axis."""
         strain = volume_strain(H)
-        wave = c.bulk_modulus * (1 + exp_less_one((1 - c.exponent) * log_volume_ratio(strain)))
-        return wave, len(H) * (wave - (1 + strain) * Fluid.pressure(c, strain))
+        power = 1 + exp_less_one((1 - c.exponent) * log_volume_ratio(strain))
+        pressure = (power - 1 - strain) / c.exponent
+        return c.bulk_modulus * power, len(H) * c.bulk_modulus * (power - pressure)
 
     @staticmethod
     def energy_density(c, H, s):

@@ -17,10 +17,11 @@ class NeoHookean(MaterialLaw):
 
     @staticmethod
     def moduli(c, H, s):
-        """rho0 c^2 = mu s^2 + mu + lam (1 - ln J), s the stretch along the wave."""
+        """rho0 c^2 = mu s^2 + mu + lam (1 - ln J), s the stretch along the wave; ln J is at
+        least 1 - 1/J."""
         _, most = squared_stretches(H)
-        along = c.mu + c.lam * (1 - log_volume_ratio(volume_strain(H)))
-        return max(along, 0.0) + c.mu * most, len(H) * max(c.lam, 0.0) + 2 * c.mu * most
+        along = c.mu + max(c.lam, c.lam / (1 + volume_strain(H)))
+        return along + c.mu * most, len(H) * max(c.lam, 0.0) + 2 * c.mu * most
 
     @staticmethod
     def energy_density(c, H, s):
