@@ -129,10 +129,12 @@ class Particles:
     `lost` is the least id of a particle outside the domain, `bad` of one whose numbers are none
     (kernels/guard.py), or the number of particles."""
 
-    def __init__(self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None):
+    def __init__(
+        self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None, audited=False
+    ):
         self.dim = bodies[0].x.shape[1]
         self.count = sum(len(body.x) for body in bodies)
-        self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None)
+        self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None, audited)
         self.transfer, self.basis, self.dx = transfer, basis, dx
         self.dtype = real_type()
         bodies, materials, id = grouped(bodies)

@@ -64,6 +64,9 @@ def update_particle(
             # A dx: linear in m and D^-1, and two numbers are cheaper to scale than a matrix
             A_dx = transfer.affine_momentum(m * g.dx, C, T, g.inverse_moment * g.dx)
             put_columns(particles.rows, p, particles.layout.affine, A_dx)
+            if ti.static(particles.layout.impulse):
+                impulse = (g.inverse_moment * g.dx) * T
+                put_columns(particles.rows, p, particles.layout.impulse, impulse)
     if ti.static(stress):
         put_columns(particles.rows, p, particles.layout.gradient, T * g.inv_dx)
     if ti.static(move):

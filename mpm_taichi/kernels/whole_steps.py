@@ -18,6 +18,7 @@ from .g2p import gather_share
 from .ghosts import exchange_share
 from .grid_update import update_share
 from .p2g import scatter_share
+from .tally import note_share
 from .time_step import even_step, longest_step
 from .update_stress import stress_share
 
@@ -66,28 +67,37 @@ def exchange(
 
 
 @ti.func
+def note(grid: Template, gravity: Template, dt, alpha, tally: Template, when: Template):
+    if ti.static(tally and tally.has_walls and (when != "kept" or tally.lets_go)):
+        note_share(grid, gravity, dt, alpha, tally, when, 0, 1)
+
+
+@ti.func
 def take_step(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, pace: Template, clock: Template,
+    gravity: Template, body_force: Template, pace: Template, tally: Template, clock: Template,
 ):  # fmt: skip
     time, dt, landing = clock[TIME], clock[DT], clock[TIME] + 1.5 * clock[DT] > clock[TARGET]
     h = ti.cast(dt, float)
+    alpha = ti.cast(pace[None].flip_ratio * ti.exp(-pace[None].flip_rate * dt), float)
     if ti.static(particles.layout.force):
         push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
     grid.speed_squared[None] = 0.0
     clear_share(grid, 0, 1)
     for color in range(2):
         scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
+    note(grid, gravity, h, alpha, tally, "given")
     exchange(grid, walls, gravity, h, False, False)
-    update_share(grid, walls, gravity, h, 0, 1)
+    update_share(grid, walls, gravity, h, tally, 0, 1)
+    note(grid, gravity, h, alpha, tally, "kept")
     exchange(grid, walls, gravity, 0.0, True, True)
-    gather_share(particles, grid, basis, transfer, "all", 0, 1)
+    note(grid, gravity, h, alpha, tally, "taken")
+    gather_share(particles, grid, basis, transfer, "all", h, tally, 0, 1)
     speed = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
     longest = longest_step(pace, speed, clock[LAST])
     end = clock[TARGET] if landing else time + dt
     goal = clock[AFTER] if landing else clock[TARGET]
     dt_next = even_step(goal - end, longest) if goal > 0.0 else longest
-    alpha = ti.cast(pace[None].flip_ratio * ti.exp(-pace[None].flip_rate * dt), float)
     for law in ti.static(particles.laws):
         for material in range(law.constants.shape[0]):
             stress_share(
@@ -111,8 +121,8 @@ def take_step(
 @ti.kernel
 def take_steps(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, pace: Template, most: int, clock: Array,
-    lengths: Array,
+    gravity: Template, body_force: Template, pace: Template, tally: Template, most: int,
+    clock: Array, lengths: Array,
 ):  # fmt: skip
     ti.loop_config(serialize=True)
     for n in range(most):
@@ -120,12 +130,14 @@ def take_steps(
             lengths[n] = clock[DT]
             clock[TAKEN] = n + 1
             take_step(
-                particles, grid, basis, transfer, walls, gravity, body_force, pace, clock
+                particles, grid, basis, transfer, walls, gravity, body_force, pace, tally, clock
             )  # fmt: skip
 
 
 @stage
-def whole_steps(particles, grid, basis, transfer, walls, gravity, body_force, pace, clock, most):
+def whole_steps(
+    particles, grid, basis, transfer, walls, gravity, body_force, pace, clock, most, tally=None
+):
     """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
     is lost or the next step is no number.  On return the clock says how far that was."""
     numbers = np.array([
@@ -133,8 +145,9 @@ def whole_steps(particles, grid, basis, transfer, walls, gravity, body_force, pa
     ])  # fmt: skip
     lengths = np.zeros(most)
     take_steps(
-        particles, grid, basis, transfer, walls, gravity, body_force, pace, most, numbers, lengths
-    )
+        particles, grid, basis, transfer, walls, gravity, body_force, pace, tally, most, numbers,
+        lengths,
+    )  # fmt: skip
     clock.time, clock.dt, clock.last, clock.drift = map(float, numbers[[TIME, DT, LAST, DRIFT]])
     clock.is_good = bool(numbers[GOOD])
     clock.lengths = lengths[: int(numbers[TAKEN])]
