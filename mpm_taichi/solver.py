@@ -65,8 +65,15 @@ class Solver:
             start_moments(self.particles, self.grid, basis)
         self.tally = None
         if audited:
-            count, force = self.particles.count, body_force is not None
-            self.tally = Tally(self.grid, walls, count, transfer, gravity, force)
+            self.tally = Tally(
+                self.grid,
+                walls,
+                self.particles.count,
+                self.particles.group_count,
+                transfer,
+                gravity,
+                body_force is not None,
+            )  # fmt: skip
         few = self.particles.count <= FEW and not atomic
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
@@ -112,8 +119,9 @@ class Solver:
         for group in self.particles.groups:
             alpha = self.flip_part(dt)
             update_stress(
-                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
-            )
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha,
+                tally=self.tally, **parts,
+            )  # fmt: skip
 
     def sort_if_due(self):
         """Slabs leave room for one cell of drift.  Particles move with sum_i w_i v_i, the weights

@@ -11,7 +11,7 @@ import taichi as ti
 
 from .fields import FieldPlan
 from .kernels.blocks import BLOCK
-from .kernels.sums import TURNS
+from .kernels.tally import TURNS
 from .runtime import widest_float
 
 
@@ -40,11 +40,12 @@ class TallyLayout:
     of_particles  sum over the steps (kinetics) and last value (kinetic) of the kinetic energy
                   with that of the affine motion [J], of transfers without increment; under gravity
                   sum dt m v (path) [kg m] and sum dt m x (moment) [kg m s]; impulse of a body force
-                  (push), its moment (twist) and work (work)
+                  (push), its moment (twist) and work (pushing)
+    of_stress     work of the stress, which the laws store or lose (work) [J]
     at_walls      impulse of the walls [kg m/s], its moment (turn) [kg m^2/s] and the kinetic energy
                   that images have and nodes had not (images) [J]"""
 
-    def __init__(self, layout, walls, folded, count, transfer, falls, force):
+    def __init__(self, layout, walls, folded, count, groups, transfer, falls, force):
         dim, turns = layout.dim, len(TURNS[layout.dim])
         self.falls, self.force = falls, force
         self.lets_go = any(wall.rule.lets_go for wall in walls)
@@ -53,14 +54,16 @@ class TallyLayout:
         self.particles = columns(
             kinetics=not transfer.increment, kinetic=not transfer.increment,
             path=dim * falls, moment=dim * falls,
-            push=dim * force, twist=turns * force, work=int(force),
+            push=dim * force, twist=turns * force, pushing=int(force),
         )  # fmt: skip
+        self.stress = columns(work=1)
         self.walls = columns(impulse=dim, turn=turns, images=int(self.lets_go))
         walled = len(self.nodes_at_walls)
         self.has_walls, self.by_stage = walled > 0, True
         self.fields = {
             "tally_at_nodes": table(layout.chunks, self.nodes),
             "tally_of_particles": table(-(-count // BLOCK), self.particles),
+            "tally_of_stress": table(count // BLOCK + groups + 1, self.stress),
             "tally_at_walls": table(-(-walled // BLOCK), self.walls),
             "wall_node": FieldPlan(int, (), (walled,)),
             "wall_mass": FieldPlan(float, (), (walled,)),
@@ -81,14 +84,15 @@ def table(rows, of) -> FieldPlan:
 class Tally(TallyLayout):
     """The tables of a run.  `dt`-weighted sums run from its start."""
 
-    def __init__(self, grid, walls, count, transfer, gravity, force):
+    def __init__(self, grid, walls, count, groups, transfer, gravity, force):
         falls = any(gravity)
-        super().__init__(grid, walls, grid.folded, count, transfer, falls, force)
+        super().__init__(grid, walls, grid.folded, count, groups, transfer, falls, force)
         self.gravity, self.real = np.array(gravity, float), widest_float()
-        self.increment = transfer.increment
+        self.increment, self.stress_in_affine = transfer.increment, not transfer.gradient
         self.at = {name: plan.field() for name, plan in self.fields.items()}
         self.at_nodes = self.at["tally_at_nodes"]
         self.of_particles = self.at.get("tally_of_particles")
+        self.of_stress = self.at["tally_of_stress"]
         self.at_walls = self.at.get("tally_at_walls")
         if self.at_walls is not None:
             self.wall_node, self.wall_mass = self.at["wall_node"], self.at["wall_mass"]
@@ -100,6 +104,7 @@ class Tally(TallyLayout):
         for values, of in (
             (self.at_nodes, self.nodes),
             (self.of_particles, self.particles),
+            (self.of_stress, self.stress),
             (self.at_walls, self.walls),
         ):
             total = 0.0 if values is None else values.to_numpy().astype(float).sum(axis=0)

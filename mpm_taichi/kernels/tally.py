@@ -13,9 +13,11 @@ import taichi as ti
 from ..runtime import Template
 from ..stages import stage
 from .blocks import BLOCK, CHUNK, blocks_of, first_block
-from .rows import vector
+from .rows import columns, put_columns, vector
 from .stencil import moment, weigh
-from .sums import TURNS
+
+TURNS = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
+"""The plane of each component of an angular momentum."""
 
 
 @ti.func
@@ -129,7 +131,7 @@ def gathered(
             found[tally.particles.push + d] = f[d]
         for k in ti.static(range(twist.n)):
             found[tally.particles.twist + k] = twist[k]
-        found[tally.particles.work] = f.dot(v)
+        found[tally.particles.pushing] = f.dot(v)
     return found
 
 
@@ -140,6 +142,28 @@ def note_particles(found, tally: Template, row):
         found[tally.particles.kinetics] = found[tally.particles.kinetic]
         tally.of_particles[row, tally.particles.kinetic] = 0.0
     add_vector(tally.of_particles, row, 0, found)
+
+
+@ti.func
+def note_stress(
+    p, L, V0_tau, dt, dt_next, particles: Template, grid: Template, tally: Template, row
+):
+    """The work of the stress in a step, V0 / 2 (tau_old : dt L + tau : dt L (I + dt L)^-1), which
+    is that of P along the straight way from F to (I + dt L) F, by the trapezoidal rule."""
+    g = grid.constants[None]
+    unit, unit_next = -1.0, -1.0
+    if ti.static(tally.stress_in_affine):
+        unit = -1.0 / (dt * g.inverse_moment * g.dx) if dt > 0.0 else 0.0
+        unit_next = -dt_next * g.inverse_moment * g.dx
+    if dt > 0.0:
+        old = unit * columns(particles.rows, p, particles.layout.stress, grid.dim)
+        advance = ti.Matrix.identity(float, grid.dim) + dt * L
+        new = V0_tau @ advance.inverse().transpose()
+        work = ti.cast(0.0, tally.real)
+        for d, e in ti.static(ti.ndrange(grid.dim, grid.dim)):
+            work += ti.cast(old[d, e] + new[d, e], tally.real) * ti.cast(L[d, e], tally.real)
+        add(tally.of_stress, row, tally.stress.work, 0.5 * ti.cast(dt, tally.real) * work)
+    put_columns(particles.rows, p, particles.layout.stress, unit_next * V0_tau)
 
 
 @ti.func

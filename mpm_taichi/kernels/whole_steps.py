@@ -102,7 +102,8 @@ def take_step(
         for material in range(law.constants.shape[0]):
             stress_share(
                 particles, law, material, grid, transfer, law.ends[material],
-                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, 0, 1,
+                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, tally,
+                0, 1,
             )  # fmt: skip
     clock[TIME], clock[DT], clock[LAST] = end, dt_next, longest
     clock[DRIFT] += dt * speed * grid.constants[None].inv_dx
