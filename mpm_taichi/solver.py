@@ -16,7 +16,7 @@ from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.sort import sort, take_up
 from .kernels.start_moments import start_moments
-from .kernels.tally import note_at_walls, note_start
+from .kernels.tally import NoTally, note_at_walls, note_start
 from .kernels.update_stress import update_stress
 from .kernels.whole_steps import Clock, whole_steps
 from .kernels.wrap import wrap
@@ -63,7 +63,7 @@ class Solver:
         self.gravity[None] = list(gravity)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
-        self.tally = None
+        self.tally: Any = NoTally
         if audited:
             self.tally = Tally(
                 self.grid,
@@ -111,7 +111,7 @@ class Solver:
 
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
-        if self.tally and not self.transfer.increment:
+        if self.tally.by_stage and not self.transfer.increment:
             note_start(self.particles, self.grid, self.basis, self.transfer, self.tally)
         self.update(0.0, dt)
 
@@ -217,5 +217,5 @@ class Solver:
         g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")
 
     def note_at_walls(self, dt, when):
-        if self.tally and self.tally.has_walls:
+        if self.tally.has_walls:
             note_at_walls(self.grid, self.gravity, dt, self.flip_part(dt), self.tally, when)

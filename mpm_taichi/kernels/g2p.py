@@ -6,7 +6,7 @@ from ..runtime import Template
 from ..stages import stage
 from .blocks import blocks_of, first_block
 from .stencil import index, line_slope, line_weight, offset, weigh
-from .tally import gathered, note_particles
+from .tally import NoTally, gathered, note_particles
 
 
 @ti.func
@@ -79,7 +79,7 @@ def gather_share(
     ):
         first = block * grid.block
         end = ti.min(first + grid.block, particles.count)
-        if ti.static(tally and tally.by_stage):
+        if ti.static(tally.by_stage):
             found = ti.Vector.zero(tally.real, tally.particles.count)
             for p in range(first, end):
                 gather_particle(p, particles, grid, basis, transfer, what)
@@ -103,7 +103,7 @@ def gather_particles(
 
 
 @stage
-def g2p(particles, grid, basis, transfer, what="all", dt=0.0, tally=None):
+def g2p(particles, grid, basis, transfer, what="all", dt=0.0, tally=NoTally):
     """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
     with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all"
     or for the "gradient" S_p; or it is the "residual" of a filter, R_p -= sum_i w_ip R_i.

@@ -5,7 +5,7 @@ import taichi as ti
 from ..runtime import Template
 from ..stages import stage
 from .blocks import active_blocks, first_active_node, first_block
-from .tally import before_forces, note_cut_node, note_node
+from .tally import NoTally, before_forces, note_cut_node, note_node
 
 
 @ti.func
@@ -36,12 +36,12 @@ def update_node(i, grid: Template, walls: Template, gravity: Template, dt, tally
             if ti.static(grid.increment):
                 v += ti.Vector([grid.node[i + grid.apart][d] / mass for d in range(grid.dim)])
             v = apply_walls(v, i, grid, walls)
-            if ti.static(tally and tally.by_stage):
+            if ti.static(tally.by_stage):
                 given = before_forces(i, v_old, grid)
                 note_node(i, given, apply_walls(given, i, grid, walls), v, grid, tally, row)
             v_old = apply_walls(v_old, i, grid, walls)
         else:
-            if ti.static(tally and tally.by_stage):
+            if ti.static(tally.by_stage):
                 note_cut_node(i, gravity, dt, grid, tally, row)
             ti.atomic_add(grid.cut[None], 1)
         for d in ti.static(range(grid.dim)):
@@ -79,7 +79,7 @@ def update_nodes(
 
 
 @stage
-def grid_update(grid, walls, gravity, dt, tally=None):
+def grid_update(grid, walls, gravity, dt, tally=NoTally):
     """v_i = ((m v)_i + impulse_i) / m_i + dt g, then the rules of the walls, which hold for
     v_i^old = (m v)_i / m_i too: the velocity that a wall takes is no change of the motion.
 

@@ -20,6 +20,14 @@ TURNS = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
 """The plane of each component of an angular momentum."""
 
 
+class NoTally:
+    """For stages of which nothing is noted."""
+
+    by_stage = False
+    has_walls = False
+    lets_go = False
+
+
 @ti.func
 def add(table: Template, row, column: Template, value):
     table[row, column] = table[row, column] + value  # "a = a + b" is never atomic

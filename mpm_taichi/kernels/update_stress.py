@@ -7,7 +7,7 @@ from ..runtime import Template
 from ..stages import stage
 from .blocks import blocks_of, first_block
 from .rows import columns, put_columns, put_vector, vector
-from .tally import note_stress
+from .tally import NoTally, note_stress
 
 
 @ti.func
@@ -59,7 +59,7 @@ def update_particle(
         particles.H[p] = H_new
         store_state(law, p, s)
         T = (-dt_next * particles.V0[p]) * tau
-        if ti.static(tally and tally.by_stage):
+        if ti.static(tally.by_stage):
             note_stress(p, L, particles.V0[p] * tau, dt, dt_next, particles, grid, tally, row)
     if ti.static(velocity):
         put_vector(particles.rows, p, 0, m * v, m)
@@ -111,7 +111,7 @@ def update_particles(
 @stage
 def update_stress(
     particles, group, grid, transfer, dt, dt_next, alpha=1.0, velocity=True, stress=True, move=True,
-    tally=None,
+    tally=NoTally,
 ):  # fmt: skip
     """Velocity and affine momentum from what was gathered, alpha being the FLIP part of a blend;
     H <- H + dt L (I + H), stress and state by the law; x <- x + dt sum_i w_ip v_i.  Stress orders

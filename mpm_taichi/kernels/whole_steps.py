@@ -18,7 +18,7 @@ from .g2p import gather_share
 from .ghosts import exchange_share
 from .grid_update import update_share
 from .p2g import scatter_share
-from .tally import note_share
+from .tally import NoTally, note_share
 from .time_step import even_step, longest_step
 from .update_stress import stress_share
 
@@ -68,7 +68,7 @@ def exchange(
 
 @ti.func
 def note(grid: Template, gravity: Template, dt, alpha, tally: Template, when: Template):
-    if ti.static(tally and tally.has_walls and (when != "kept" or tally.lets_go)):
+    if ti.static(tally.has_walls and (when != "kept" or tally.lets_go)):
         note_share(grid, gravity, dt, alpha, tally, when, 0, 1)
 
 
@@ -137,7 +137,7 @@ def take_steps(
 
 @stage
 def whole_steps(
-    particles, grid, basis, transfer, walls, gravity, body_force, pace, clock, most, tally=None
+    particles, grid, basis, transfer, walls, gravity, body_force, pace, clock, most, tally=NoTally
 ):
     """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
     is lost or the next step is no number.  On return the clock says how far that was."""
