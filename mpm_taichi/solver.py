@@ -111,7 +111,7 @@ class Solver:
 
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
-        if self.tally.by_stage and not self.transfer.increment:
+        if self.tally.is_on and not self.transfer.increment:
             note_start(self.particles, self.grid, self.basis, self.transfer, self.tally)
         self.update(0.0, dt)
 

@@ -4,7 +4,9 @@ Sums do not depend on the number of threads: each row of a table is written by o
 and the rows are added up when somebody asks.  Numbers are f64 where every device of the kind has
 it."""
 
+from math import prod
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import taichi as ti
@@ -15,20 +17,24 @@ from .kernels.tally import TURNS
 from .runtime import widest_float
 
 
-def nodes_at_walls(layout, walls, folded) -> np.ndarray:
-    """Linear indices, rising, of the nodes where a wall can act: its own, and along folded axes
+def planes_at_walls(layout, walls, folded) -> list[np.ndarray]:
+    """Of each axis which planes of nodes a wall can act in, [shape]: its own, and along folded axes
     ghost nodes and their images."""
-    if not walls:
-        return np.zeros(0, np.int32)
-    number = np.arange(np.prod(layout.shape), dtype=np.int64)
-    at = np.stack(np.unravel_index(number, layout.shape))
-    near = np.zeros(len(number), bool)
+    planes = [np.zeros(n, bool) for n in layout.shape]
     for wall in walls:
         reach = layout.ghost - 1 if wall.axis in folded else 0
-        k = at[wall.axis] - (layout.ghost + layout.cells[wall.axis] * wall.upper)
-        near |= np.abs(k) <= reach
-    strides = np.array(layout.strides)[:, None]
-    return (at[:, near] * strides).sum(axis=0).astype(np.int32)
+        at = layout.ghost + layout.cells[wall.axis] * wall.upper
+        planes[wall.axis][max(at - reach, 0) : at + reach + 1] = True
+    return planes
+
+
+def nodes_in(planes, strides) -> np.ndarray:
+    """Linear indices, rising, of the nodes in one of these planes."""
+    near = np.zeros([len(plane) for plane in planes], bool)
+    for axis, plane in enumerate(planes):
+        near |= plane.reshape([-1 if d == axis else 1 for d in range(near.ndim)])
+    found = sum(k * stride for k, stride in zip(np.nonzero(near), strides, strict=True))
+    return np.asarray(found, np.int32)
 
 
 class TallyLayout:
@@ -49,7 +55,9 @@ class TallyLayout:
         dim, turns = layout.dim, len(TURNS[layout.dim])
         self.falls, self.force = falls, force
         self.lets_go = any(wall.rule.lets_go for wall in walls)
-        self.nodes_at_walls = nodes_at_walls(layout, walls, folded)
+        self.planes = planes_at_walls(layout, walls, folded)
+        inside = prod(len(plane) - int(plane.sum()) for plane in self.planes)
+        self.node_count = prod(layout.shape) - inside
         self.nodes = columns(given=1, held=1, end=1, cut=1, lost=dim)
         self.particles = columns(
             kinetics=not transfer.increment, kinetic=not transfer.increment,
@@ -58,8 +66,8 @@ class TallyLayout:
         )  # fmt: skip
         self.stress = columns(work=1)
         self.walls = columns(impulse=dim, turn=turns, images=int(self.lets_go))
-        walled = len(self.nodes_at_walls)
-        self.has_walls, self.by_stage = walled > 0, True
+        walled = self.node_count
+        self.has_walls = walled > 0
         self.fields = {
             "tally_at_nodes": table(layout.chunks, self.nodes),
             "tally_of_particles": table(-(-count // BLOCK), self.particles),
@@ -82,42 +90,48 @@ def table(rows, of) -> FieldPlan:
 
 
 class Tally(TallyLayout):
-    """The tables of a run.  `dt`-weighted sums run from its start."""
+    """The tables of a run.  `start` has the energies that its ledger starts with, [kinetic, what
+    the laws store, what they have lost] (J)."""
+
+    is_on = True
 
     def __init__(self, grid, walls, count, groups, transfer, gravity, force):
         falls = any(gravity)
         super().__init__(grid, walls, grid.folded, count, groups, transfer, falls, force)
-        self.gravity, self.real = np.array(gravity, float), widest_float()
+        self.real = widest_float()
         self.increment, self.stress_in_affine = transfer.increment, not transfer.gradient
-        self.at = {name: plan.field() for name, plan in self.fields.items()}
-        self.at_nodes = self.at["tally_at_nodes"]
-        self.of_particles = self.at.get("tally_of_particles")
-        self.of_stress = self.at["tally_of_stress"]
-        self.at_walls = self.at.get("tally_at_walls")
-        if self.at_walls is not None:
-            self.wall_node, self.wall_mass = self.at["wall_node"], self.at["wall_mass"]
-            self.wall_node.from_numpy(self.nodes_at_walls)
+        self.start = np.zeros(3)
+        fields = {name: plan.field() for name, plan in self.fields.items()}
+        self.at_nodes: Any = fields["tally_at_nodes"]
+        self.of_stress: Any = fields["tally_of_stress"]
+        self.tables = [(self.at_nodes, self.nodes), (self.of_stress, self.stress)]
+        if self.particles.count:
+            self.of_particles: Any = fields["tally_of_particles"]
+            self.tables.append((self.of_particles, self.particles))
+        if self.has_walls:
+            self.at_walls: Any = fields["tally_at_walls"]
+            self.tables.append((self.at_walls, self.walls))
+            self.wall_node: Any = fields["wall_node"]
+            self.wall_mass: Any = fields["wall_mass"]
+            self.wall_node.from_numpy(nodes_in(self.planes, grid.strides))
 
     def totals(self) -> dict[str, np.ndarray]:
-        """Of each name in the layout the sum since the start, [1] or a vector."""
+        """Of each name in the layout that the run has, the sum since its start, [1] or a vector."""
         found = {}
-        for values, of in (
-            (self.at_nodes, self.nodes),
-            (self.of_particles, self.particles),
-            (self.of_stress, self.stress),
-            (self.at_walls, self.walls),
-        ):
-            total = 0.0 if values is None else values.to_numpy().astype(float).sum(axis=0)
+        for values, of in self.tables:
+            total = values.to_numpy().astype(float).sum(axis=0)
             for name, width in of.widths.items():
-                first = getattr(of, name)
-                part = np.zeros(width) if values is None else total[first : first + width]
-                found[name] = part
+                if width:
+                    found[name] = total[getattr(of, name) :][:width]
         return found
 
     def state(self) -> dict[str, np.ndarray]:
-        """All that a run needs to go on adding, bit for bit."""
-        return {n: self.at[n].to_numpy() for n in self.at if n.startswith("tally")}
+        """All that a later process needs to go on adding, bit for bit."""
+        return {"tally_start": self.start} | {
+            f"tally_{k}": values.to_numpy() for k, (values, _) in enumerate(self.tables)
+        }
 
     def restore(self, state: dict[str, np.ndarray]):
-        for name, values in state.items():
-            self.at[name].from_numpy(values)
+        self.start = state["tally_start"]
+        for k, (values, _) in enumerate(self.tables):
+            values.from_numpy(state[f"tally_{k}"])

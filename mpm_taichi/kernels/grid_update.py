@@ -36,12 +36,12 @@ def update_node(i, grid: Template, walls: Template, gravity: Template, dt, tally
             if ti.static(grid.increment):
                 v += ti.Vector([grid.node[i + grid.apart][d] / mass for d in range(grid.dim)])
             v = apply_walls(v, i, grid, walls)
-            if ti.static(tally.by_stage):
+            if ti.static(tally.is_on):
                 given = before_forces(i, v_old, grid)
                 note_node(i, given, apply_walls(given, i, grid, walls), v, grid, tally, row)
             v_old = apply_walls(v_old, i, grid, walls)
         else:
-            if ti.static(tally.by_stage):
+            if ti.static(tally.is_on):
                 note_cut_node(i, gravity, dt, grid, tally, row)
             ti.atomic_add(grid.cut[None], 1)
         for d in ti.static(range(grid.dim)):

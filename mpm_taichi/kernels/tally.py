@@ -23,7 +23,7 @@ TURNS = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
 class NoTally:
     """For stages of which nothing is noted."""
 
-    by_stage = False
+    is_on = False
     has_walls = False
     lets_go = False
 
@@ -224,7 +224,7 @@ def note_at_wall(
 def note_share(
     grid: Template, gravity: Template, dt, alpha, tally: Template, when: Template, worker, workers
 ):
-    count = ti.static(tally.wall_node.shape[0])
+    count = ti.static(tally.node_count)
     blocks = blocks_of(count, BLOCK)
     for block in range(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
@@ -249,7 +249,7 @@ def note_at_walls(grid, gravity, dt, alpha, tally, when):
     before the fold what particles have `given`, after the grid update the energy that nodes have
     `kept`, and after the fill what particles have `taken` back."""
     if grid.is_near_wall and (when != "kept" or tally.lets_go):
-        note_walls(grid, gravity, dt, alpha, tally, when, grid.workers(len(tally.nodes_at_walls)))
+        note_walls(grid, gravity, dt, alpha, tally, when, grid.workers(tally.node_count))
 
 
 @ti.kernel

@@ -59,7 +59,7 @@ def update_particle(
         particles.H[p] = H_new
         store_state(law, p, s)
         T = (-dt_next * particles.V0[p]) * tau
-        if ti.static(tally.by_stage):
+        if ti.static(tally.is_on):
             note_stress(p, L, particles.V0[p] * tau, dt, dt_next, particles, grid, tally, row)
     if ti.static(velocity):
         put_vector(particles.rows, p, 0, m * v, m)
