@@ -172,11 +172,11 @@ class Solver:
     @property
     def stored(self) -> dict[str, Any]:
         """The fields that a checkpoint keeps, by name."""
-        return self.particles.stored | self.grid.stored
+        return self.particles.stored | self.grid.stored | self.tally.stored
 
     def state(self) -> dict[str, Any]:
         """The numbers that belong to them."""
-        return {"drift": self.drift, "sorts": self.sorts}
+        return {"drift": self.drift, "sorts": self.sorts, "tally_start": list(self.tally.start)}
 
     def restore(self, state: dict[str, Any], arrays) -> None:
         """Go on from fields and numbers of before: on a CPU as if never interrupted, to the last
@@ -184,6 +184,7 @@ class Solver:
         for name, field in self.stored.items():
             field.from_numpy(arrays[name])
         self.drift, self.sorts = state["drift"], state["sorts"]
+        self.tally.start = state["tally_start"]
         self.particles.lost[None] = self.particles.count
         if self.sorts:
             take_up(self.particles, self.grid)

@@ -67,7 +67,7 @@ class TallyLayout:
         self.stress = columns(work=1)
         self.walls = columns(impulse=dim, turn=turns, images=int(self.lets_go))
         walled = self.node_count
-        self.has_walls = walled > 0
+        self.has_walls, self.has_particles = walled > 0, self.particles.count > 0
         self.fields = {
             "tally_at_nodes": table(layout.chunks, self.nodes),
             "tally_of_particles": table(-(-count // BLOCK), self.particles),
@@ -100,12 +100,12 @@ class Tally(TallyLayout):
         super().__init__(grid, walls, grid.folded, count, groups, transfer, falls, force)
         self.real = widest_float()
         self.increment, self.stress_in_affine = transfer.increment, not transfer.gradient
-        self.start = np.zeros(3)
+        self.start = [0.0, 0.0, 0.0]
         fields = {name: plan.field() for name, plan in self.fields.items()}
         self.at_nodes: Any = fields["tally_at_nodes"]
         self.of_stress: Any = fields["tally_of_stress"]
         self.tables = [(self.at_nodes, self.nodes), (self.of_stress, self.stress)]
-        if self.particles.count:
+        if self.has_particles:
             self.of_particles: Any = fields["tally_of_particles"]
             self.tables.append((self.of_particles, self.particles))
         if self.has_walls:
@@ -125,13 +125,7 @@ class Tally(TallyLayout):
                     found[name] = total[getattr(of, name) :][:width]
         return found
 
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a later process needs to go on adding, bit for bit."""
-        return {"tally_start": self.start} | {
-            f"tally_{k}": values.to_numpy() for k, (values, _) in enumerate(self.tables)
-        }
-
-    def restore(self, state: dict[str, np.ndarray]):
-        self.start = state["tally_start"]
-        for k, (values, _) in enumerate(self.tables):
-            values.from_numpy(state[f"tally_{k}"])
+    @property
+    def stored(self) -> dict[str, Any]:
+        """The fields that a checkpoint keeps, by name."""
+        return {f"tally_{k}": values for k, (values, _) in enumerate(self.tables)}

@@ -79,7 +79,7 @@ def gather_share(
     ):
         first = block * grid.block
         end = ti.min(first + grid.block, particles.count)
-        if ti.static(tally.is_on):
+        if ti.static(tally.has_particles):
             found = ti.Vector.zero(tally.real, tally.particles.count)
             for p in range(first, end):
                 gather_particle(p, particles, grid, basis, transfer, what)

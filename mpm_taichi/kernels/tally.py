@@ -8,6 +8,8 @@ the change; elsewhere this is zero.  About the origin likewise, with x_i x.
 
 A row of a table belongs to a block of nodes or particles and so to one worker."""
 
+from typing import ClassVar
+
 import taichi as ti
 
 from ..runtime import Template
@@ -25,7 +27,10 @@ class NoTally:
 
     is_on = False
     has_walls = False
+    has_particles = False
     lets_go = False
+    start = ()
+    stored: ClassVar = {}
 
 
 @ti.func

@@ -50,6 +50,7 @@ class History:
             # - sum m g . x, zero at the origin
             "gravitational_energy": -(sums["mass_moment"].sum(axis=0) @ self.gravity),
         }
+        row |= simulation.ledger
         centers = sums["mass_moment"] / mass[:, None]
         velocities = sums["momentum"] / mass[:, None]
         for body, center, velocity in zip(

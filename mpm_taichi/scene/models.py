@@ -230,6 +230,7 @@ class Output(Model):
     )
     paraview: bool | ParaView = Field(
         default=False, description="files for ParaView: particles of each output, or the grid too"
+    )
     audit: bool = Field(
         default=False,
         description="count the impulses of walls and the energy that each stage of the step loses, "
