@@ -6,9 +6,10 @@
 K is the kinetic energy of the particles with that of their affine motion, E what the laws store and
 have lost.  P2G loses what particles have and nodes have not, G2P what nodes have and particles have
 not.  With an increment (FLIP) particles keep motion that nodes do not see, so that these two are
-one row.  Time integration loses the work of stress and loads less what the nodes gain by it.  Each
-of these is counted by itself, and `energy_residual` is what the laws store and lose beyond the work
-of the stress: the rest is an identity."""
+one row.  Time integration loses the work of stress and loads less what the nodes gain by it; where
+the stress works at other velocities than those of the grid update (MUSL, USF) it cannot be told
+from the rest.  Each of these is counted by itself, and `energy_residual` is what the laws store and
+lose beyond the work of the stress: the rest is an identity."""
 
 import numpy as np
 
@@ -40,7 +41,10 @@ def ledger(solver, sums) -> dict[str, float]:
         ("gravity_turn", _axial(vector("moment", len(axes)), g)),
     ):
         columns |= _components(name, turning, values)
-    columns |= _energy_rows(tally, totals, _energies(totals, sums), vector("path", len(axes)) @ g)
+    rows = _energy_rows(tally, totals, _energies(totals, sums), vector("path", len(axes)) @ g)
+    if solver.stress_update != "usl":
+        rows = _as_one(rows, "loss_transfers_and_time_integration")
+    columns |= rows
     return {name: float(value) for name, value in columns.items()}
 
 
@@ -74,6 +78,13 @@ def _energy_rows(tally, totals, now, fallen):
     rows["loss_cut_off"] = cut
     rows["energy_residual"] = gained - work
     return rows
+
+
+def _as_one(rows, name):
+    """The losses of the stages added up under one name; that of the cut-off is left."""
+    stages = [row for row in rows if row.startswith("loss_") and row != "loss_cut_off"]
+    together = {name: sum(map(rows.pop, stages))}
+    return rows | together
 
 
 def _components(name, axes, values):
