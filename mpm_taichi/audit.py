@@ -49,8 +49,10 @@ class Line(NamedTuple):
 
 
 def audit(simulation, history_path) -> list[Line]:
-    """Of a run whose history.csv is on the disk."""
+    """Of a run whose history.csv is on the disk; nothing where that has no row."""
     columns = read_history(history_path)
+    if not len(columns.get("time", ())):
+        return []
     first, last = ({name: values[k] for name, values in columns.items()} for k in (0, -1))
     books = Books(simulation, first, last, columns)
     return [

@@ -8,13 +8,14 @@ from mpm_taichi.expressions import Expressions
 from .states import build
 from .test_stages import DT, three_steps
 
+CAMPAIGN = [pytest.mark.slow, pytest.mark.campaign]
 CASES = [
     (2, "QuadraticBSpline", "MLS", "usl"),
-    (2, "QuadraticBSpline", "FLIPBlend", "musl"),
-    pytest.param(2, "GIMP", "APIC", "usf", marks=pytest.mark.slow),
-    pytest.param(2, "QuadraticBoundary", "TPIC", "usl", marks=pytest.mark.slow),
-    pytest.param(3, "Linear", "FLIP", "usl", marks=pytest.mark.slow),
-    pytest.param(3, "CubicBSpline", "MLS", "usl", marks=[pytest.mark.slow, pytest.mark.campaign]),
+    pytest.param(2, "QuadraticBSpline", "FLIPBlend", "musl", marks=pytest.mark.slow),
+    pytest.param(2, "GIMP", "APIC", "usf", marks=CAMPAIGN),
+    pytest.param(2, "QuadraticBoundary", "TPIC", "usl", marks=CAMPAIGN),
+    pytest.param(3, "Linear", "FLIP", "usl", marks=CAMPAIGN),
+    pytest.param(3, "CubicBSpline", "MLS", "usl", marks=CAMPAIGN),
 ]
 
 
