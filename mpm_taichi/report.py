@@ -7,6 +7,8 @@ import time
 from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
+from .audit import Line
+from .audit import summary as audit_summary
 from .disk_space import planned_disk
 from .recorders import Errors, History
 
@@ -20,6 +22,7 @@ class Report:
     def __init__(self, attempts, command: list[str], before=None):
         self.attempts, self.command = attempts, command
         self.before = dict(before or {})
+        self.audit: list[Line] = []  # closed when the run is done
         self.started = time.time()
 
     def content(self, status: str, error: str | None = None) -> dict:
@@ -66,6 +69,8 @@ class Report:
             result["conservation"] = conservation(history.first, history.last)
         if errors is not None:
             result["errors"] = errors.summary()
+        if self.audit:
+            result["audit"] = audit_summary(self.audit)
         return result
 
     def _processes_before(self) -> list[dict]:

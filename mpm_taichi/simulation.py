@@ -12,6 +12,7 @@ from .errors import InputError, MotionError
 from .kernels.guard import guard
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
+from .ledger import begin_ledger, ledger
 from .memory import planned_memory, refuse_too_much
 from .scene import Scene
 from .schedules import EverySeconds, even_step
@@ -65,6 +66,8 @@ class Simulation:
         self.ranges = np.cumsum([0, *counts])
         if threads and device != "cpu":
             raise InputError(f"--threads: is for --device cpu ({device} has its own)")
+        if scene.output.audit and device != "cpu":
+            raise InputError(f"output.audit: is for --device cpu (got {device}); leave it out")
         self.threads = threads or self._worthwhile_threads()
         if self.threads > MOST_THREADS:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
@@ -89,7 +92,8 @@ class Simulation:
                 mass_cutoff=method.mass_cutoff, periodic=scene.domain.periodic,
                 stress_update=method.stress_update, filter_order=method.filter_order,
                 flip_part=method.flip_part, body_force=scene.field(scene.body_force),
-                pace=self.time_step.pace, threads=self.threads, atomic=device != "cpu",
+                audited=scene.output.audit, pace=self.time_step.pace, threads=self.threads,
+                atomic=device != "cpu",
             )  # fmt: skip
         except (RuntimeError, MemoryError):  # Taichi's allocator says no more than that
             raise InputError(
@@ -110,7 +114,13 @@ class Simulation:
         self.guard_steps, self.guarded = GUARD_STEPS, 0
         self.is_started = False  # recorders have seen the start
         self.stop_asked = False  # `advance` returns after the step or launch that it is at
+        self.start_volume = sum(
+            float(body.V0 @ np.linalg.det(np.eye(scene.dimension) + body.displacement_gradient))
+            for body in bodies
+        )
         self.solver.start(self.dt)
+        if scene.output.audit:
+            begin_ledger(self.solver, self.sums)
 
     def _half_width(self, bodies):
         """Of the smallest particle [cells].  InputError where a basis that takes particles as
@@ -173,6 +183,7 @@ class Simulation:
     def _forget_moment(self):
         self.__dict__.pop("snapshot", None)
         self.__dict__.pop("sums", None)
+        self.__dict__.pop("ledger", None)
 
     def _look_after(self):
         """MotionError where a particle is lost or the step has collapsed, and, looked for now and
@@ -326,6 +337,11 @@ class Simulation:
         if not all(np.isfinite(values).all() for values in found.values()):
             _ = self.snapshot  # names the particle that is no number
         return found
+
+    @cached_property
+    def ledger(self) -> dict[str, float]:
+        """What the audit has counted since the start (ledger.py); nothing where it is off."""
+        return ledger(self.solver, self.sums) if self.scene.output.audit else {}
 
     def _bad(self, particle) -> MotionError:
         values = particle_values(self.solver, particle)

@@ -18,11 +18,13 @@ from .kernels.residual import take_residual
 from .kernels.sort import sort, take_up
 from .kernels.start_moments import start_moments
 from .kernels.stiffness import stiffest
+from .kernels.tally import NoTally, note_at_walls, note_start
 from .kernels.update_stress import update_stress
 from .kernels.whole_steps import Clock, whole_steps
 from .kernels.wrap import wrap
 from .materials import Material
 from .particles import Particles
+from .tally import Tally
 from .time_step import Motion, Stiffness
 from .transfers import FlipPart
 
@@ -47,22 +49,35 @@ class Solver:
     def __init__(
         self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
         stress_update="usl", flip_part=None, filter_order=1, body_force=None,
-        pace=None, threads=1, atomic=False,
+        audited=False, pace=None, threads=1, atomic=False,
     ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
         self.stress_update, self.body_force = stress_update, body_force
         self.flip_part, self.filter_order = flip_part or FlipPart(), filter_order
         self.particles = Particles(
-            bodies, basis, transfer, dx, keeps_pic=stress_update == "musl", body_force=body_force
-        )
+            bodies, basis, transfer, dx, keeps_pic=stress_update == "musl", body_force=body_force,
+            audited=audited,
+        )  # fmt: skip
         self.grid = Grid(
             cells, dx, basis, self.particles.group_count, transfer.increment,
             self._mass_cutoff(mass_cutoff, bodies, cells), walls, periodic, threads, atomic,
+            audited,
         )  # fmt: skip
         self.gravity = ti.Vector.field(self.particles.dim, float, ())
         self.gravity[None] = list(gravity)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
+        self.tally: Any = NoTally
+        if audited:
+            self.tally = Tally(
+                self.grid,
+                walls,
+                self.particles.count,
+                self.particles.group_count,
+                transfer,
+                gravity,
+                body_force is not None,
+            )  # fmt: skip
         few = self.particles.count <= FEW and not atomic
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
@@ -84,14 +99,17 @@ class Solver:
 
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
+        if self.tally.is_on and not self.transfer.increment:
+            note_start(self.particles, self.grid, self.basis, self.transfer, self.tally)
         self.update(0.0, dt)
 
     def update(self, dt, dt_next, **parts):
         for group in self.particles.groups:
             alpha = self.flip_part(dt)
             update_stress(
-                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
-            )
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha,
+                tally=self.tally, **parts,
+            )  # fmt: skip
 
     def sort_if_due(self):
         """Slabs leave room for one cell of drift, of which the steps taken tell exactly."""
@@ -132,18 +150,18 @@ class Solver:
         clock.drift = self.drift
         whole_steps(
             self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
-            self.body_force, self.flip_part, self.pace, clock, most,
+            self.body_force, self.flip_part, self.pace, clock, most, self.tally,
         )  # fmt: skip
         self.drift = clock.drift
 
     @property
     def stored(self) -> dict[str, Any]:
         """The fields that a checkpoint keeps, by name."""
-        return self.particles.stored | self.grid.stored
+        return self.particles.stored | self.grid.stored | self.tally.stored
 
     def state(self) -> dict[str, Any]:
         """The numbers that belong to them."""
-        return {"drift": self.drift, "sorts": self.sorts}
+        return {"drift": self.drift, "sorts": self.sorts, "tally_start": list(self.tally.start)}
 
     def restore(self, state: dict[str, Any], arrays) -> None:
         """Go on from fields and numbers of before: on a CPU as if never interrupted, to the last
@@ -151,6 +169,7 @@ class Solver:
         for name, field in self.stored.items():
             field.from_numpy(arrays[name])
         self.drift, self.sorts = state["drift"], state["sorts"]
+        self.tally.start = state["tally_start"]
         self.particles.lost[None] = self.particles.count
         if self.sorts:
             take_up(self.particles, self.grid)
@@ -174,10 +193,13 @@ class Solver:
             push(self.particles, self.grid, self.body_force, time, dt)
         clear(self.grid)
         p2g(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "given")
         fold_ghosts(self.grid, self.walls, self.gravity, dt)
-        grid_update(self.grid, self.walls, self.gravity, dt)
+        grid_update(self.grid, self.walls, self.gravity, dt, self.tally)
+        self.note_at_walls(dt, "kept")
         fill_ghosts(self.grid, self.walls, self.gravity)
-        g2p(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "taken")
+        g2p(self.particles, self.grid, self.basis, self.transfer, dt=dt, tally=self.tally)
         if self.transfer.filtered:
             take_residual(
                 self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
@@ -192,3 +214,7 @@ class Solver:
         grid_update(self.grid, self.walls, self.gravity, 0.0)
         fill_ghosts(self.grid, self.walls, self.gravity)
         g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")
+
+    def note_at_walls(self, dt, when):
+        if self.tally.has_walls:
+            note_at_walls(self.grid, self.gravity, dt, self.flip_part(dt), self.tally, when)

@@ -10,7 +10,7 @@ from .blocks import active_blocks, first_active_node, first_block
 @ti.func
 def clear_node(i, grid: Template):
     grid.node[i] = ti.Vector.zero(float, 4)
-    if ti.static(grid.increment):
+    if ti.static(len(grid.records) > 1):
         grid.node[i + grid.apart] = ti.Vector.zero(float, 4)
 
 

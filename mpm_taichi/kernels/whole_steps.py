@@ -19,6 +19,7 @@ from .g2p import gather_share
 from .ghosts import exchange_share
 from .grid_update import update_share
 from .p2g import scatter_share
+from .tally import NoTally, note_share
 from .time_step import even_step, longest_step
 from .update_stress import stress_share
 
@@ -74,33 +75,44 @@ def exchange(
 
 
 @ti.func
+def note(grid: Template, gravity: Template, dt, alpha, tally: Template, when: Template):
+    if ti.static(tally.has_walls and (when != "kept" or tally.lets_go)):
+        note_share(grid, gravity, dt, alpha, tally, when, 0, 1)
+
+
+@ti.func
 def take_step(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, flip: Template, pace: Template, clock: Template,
+    gravity: Template, body_force: Template, flip: Template, pace: Template, tally: Template,
+    clock: Template,
 ):  # fmt: skip
     """Returns which of BOUNDS binds the next step."""
     time, dt, landing = clock[TIME], clock[DT], clock[TIME] + 1.5 * clock[DT] > clock[TARGET]
     h = ti.cast(dt, float)
+    alpha = ti.cast(flip[0] * ti.exp(-flip[1] * dt), float)
     if ti.static(particles.layout.force):
         push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
     grid.speed_squared[None], grid.rate_squared[None] = 0.0, 0.0
     clear_share(grid, 0, 1)
     for color in range(2):
         scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
+    note(grid, gravity, h, alpha, tally, "given")
     exchange(grid, walls, gravity, h, False, False)
-    update_share(grid, walls, gravity, h, 0, 1)
+    update_share(grid, walls, gravity, h, tally, 0, 1)
+    note(grid, gravity, h, alpha, tally, "kept")
     exchange(grid, walls, gravity, 0.0, True, True)
-    gather_share(particles, grid, basis, transfer, "all", 0, 1)
+    note(grid, gravity, h, alpha, tally, "taken")
+    gather_share(particles, grid, basis, transfer, "all", h, tally, 0, 1)
     longest, bound = longest_step(pace, clock[SPEED], clock[RATE], clock[LAST])
     end = clock[TARGET] if landing else time + dt
     goal = clock[AFTER] if landing else clock[TARGET]
     dt_next = even_step(goal - end, longest) if goal > 0.0 else longest
-    alpha = ti.cast(flip[0] * ti.exp(-flip[1] * dt), float)
     for law in ti.static(particles.laws):
         for material in range(law.constants.shape[0]):
             stress_share(
                 particles, law, material, grid, transfer, law.ends[material],
-                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, 0, 1,
+                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, tally,
+                0, 1,
             )  # fmt: skip
     clock[TIME], clock[DT], clock[LAST] = end, dt_next, longest
     clock[SPEED] = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
@@ -124,8 +136,8 @@ def take_step(
 @ti.kernel
 def take_steps(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, flip: Array, pace: Array, most: int, clock: Array,
-    lengths: Array, bounds: Array,
+    gravity: Template, body_force: Template, flip: Array, pace: Array, tally: Template, most: int,
+    clock: Array, lengths: Array, bounds: Array,
 ):  # fmt: skip
     ti.loop_config(serialize=True)
     for n in range(most):
@@ -133,14 +145,16 @@ def take_steps(
             lengths[n] = clock[DT]
             clock[TAKEN] = n + 1
             bounds[n] = take_step(
-                particles, grid, basis, transfer, walls, gravity, body_force, flip, pace, clock
+                particles, grid, basis, transfer, walls, gravity, body_force, flip, pace, tally,
+                clock,
             )  # fmt: skip
 
 
 @stage
 def whole_steps(
-    particles, grid, basis, transfer, walls, gravity, body_force, flip_part, pace, clock, most
-):
+    particles, grid, basis, transfer, walls, gravity, body_force, flip_part, pace, clock, most,
+    tally=NoTally,
+):  # fmt: skip
     """Up to `most` steps from `clock`, fewer where an output is reached, a sort or a look at the
     stiffness is due, a particle is lost or the next step is no number.  On return the clock says
     how far that was."""
@@ -151,7 +165,7 @@ def whole_steps(
     lengths, bounds = np.zeros(most), np.zeros(most, np.int32)
     take_steps(
         particles, grid, basis, transfer, walls, gravity, body_force, np.array(flip_part, float),
-        np.array(pace, float), most, numbers, lengths, bounds,
+        np.array(pace, float), tally, most, numbers, lengths, bounds,
     )  # fmt: skip
     clock.time, clock.dt, clock.last = map(float, numbers[[TIME, DT, LAST]])
     clock.speed, clock.rate = map(float, numbers[[SPEED, RATE]])

@@ -81,7 +81,9 @@ class DruckerPrager(Flowing):
                 part = largest / size
             s.plastic_strain += ti.static(sqrt(2 / 3)) * (1.0 - part) * size
         if flows:
-            s.dissipated += Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
+            # What flows does so under the stress that is left, not under that of the trial.
+            s.dissipated += 2.0 * c.mu * part * (1.0 - part) * size * size
+            s.dissipated += (c.lam + 2.0 / 3.0 * c.mu) * volume * (trial - volume)
             swelling = (volume - trial) / 3.0
             change = (part - 1.0) * D
             for d in ti.static(range(H.n)):

@@ -13,9 +13,11 @@ from .kernels.grid_update import grid_update
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.start_moments import start_moments
+from .kernels.tally import note_at_walls, note_start
 from .kernels.update_stress import update_stress
 from .kernels.wrap import wrap
 from .particles import Particles
+from .tally import Tally
 
 
 class Solver:
@@ -24,6 +26,7 @@ class Solver:
     def __init__(
         self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
         stress_update="usl", flip_part=None, filter_order=1, body_force=None,
+        audited=False,
     ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
         self.stress_update, self.body_force = stress_update, body_force
@@ -35,6 +38,10 @@ class Solver:
         self.gravity = np.array(gravity, float)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
+        self.tally = None
+        if audited:
+            force = body_force is not None
+            self.tally = Tally(self.grid, walls, transfer, self.gravity, force)
 
     def _mass_cutoff(self, part, bodies, cells):
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight
@@ -48,14 +55,17 @@ class Solver:
 
     def start(self, dt):
         """Write the impulse of the first step, of length dt [s]."""
+        if self.tally and not self.transfer.increment:
+            note_start(self.particles, self.grid, self.basis, self.transfer, self.tally)
         self.update(0.0, dt)
 
     def update(self, dt, dt_next, **parts):
         for group in self.particles.groups:
             alpha = self.flip_part(dt)
             update_stress(
-                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
-            )
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha,
+                tally=self.tally, **parts,
+            )  # fmt: skip
 
     def step(self, time, dt, dt_next):
         """Advance from `time` by dt [s], the next step being of length dt_next; returns the largest
@@ -81,10 +91,13 @@ class Solver:
             push(self.particles, self.grid, self.body_force, time, dt)
         clear(self.grid)
         p2g(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "given")
         fold_ghosts(self.grid, self.walls, self.gravity, dt)
-        grid_update(self.grid, self.walls, self.gravity, dt)
+        grid_update(self.grid, self.walls, self.gravity, dt, self.tally)
+        self.note_at_walls(dt, "kept")
         fill_ghosts(self.grid, self.walls, self.gravity)
-        g2p(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "taken")
+        g2p(self.particles, self.grid, self.basis, self.transfer, dt=dt, tally=self.tally)
         if self.transfer.filtered:
             take_residual(
                 self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
@@ -99,3 +112,7 @@ class Solver:
         grid_update(self.grid, self.walls, self.gravity, 0.0)
         fill_ghosts(self.grid, self.walls, self.gravity)
         g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")
+
+    def note_at_walls(self, dt, when):
+        if self.tally and self.walls:
+            note_at_walls(self.grid, self.gravity, dt, self.flip_part(dt), self.tally, when)

@@ -26,8 +26,9 @@ class DruckerPrager(Flowing):
             part, flows = largest / size if size > largest else 1.0, True
             s.plastic_strain = s.plastic_strain + np.sqrt(2 / 3) * (1 - part) * size
         if flows:
-            lost = Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
-            s.dissipated = s.dissipated + lost
+            sheared = 2 * c.mu * part * (1 - part) * size**2
+            opened = (c.lam + 2 / 3 * c.mu) * volume * (trial - volume)
+            s.dissipated = s.dissipated + sheared + opened
             swelling = (volume - trial) / 3
             change = (part - 1) * D + swelling * np.eye(len(H))
             H, s = Flowing.flowed(H, s, change, (part - 1) * D_zz + swelling)
