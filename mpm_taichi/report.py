@@ -48,6 +48,9 @@ class Report:
                 "chosen_by": "scene" if time_step.given is not None else "auto",
                 "shortened": time_step.shortened,
                 "binding": dict(time_step.counts),
+                "bound_by": {
+                    name: whom(simulation, limit) for name, limit in time_step.binders.items()
+                },
                 "limits_at_start": [limit._asdict() for limit in simulation.limits_at_start],
             },
             "seeding": [dataclasses.asdict(report) for report in simulation.seeding],
@@ -80,6 +83,11 @@ class Report:
         kept = ("command", "status", "error", "started", "wall_seconds", "steps", "failures")
         last = {name: self.before.get(name) for name in kept}
         return [*self.before.get("processes_before", []), last]
+
+
+def whom(simulation, limit) -> str:
+    """What or whose a limit is: of its cause or its particle."""
+    return limit.cause if limit.particle is None else simulation.describe_particle(limit.particle)
 
 
 def versions() -> dict[str, str | None]:

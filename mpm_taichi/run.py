@@ -17,7 +17,7 @@ from .errors import InputError, MotionError, RunError
 from .interruption import Interrupted, Interruption
 from .progress import Progressing
 from .recorders import Errors
-from .report import Report
+from .report import Report, whom
 from .scene import dump_scene
 from .simulation import Simulation
 from .trouble import write_trouble
@@ -120,6 +120,15 @@ def announce(simulation, console):
 
 def summary(simulation, folder: Path, status: str) -> str:
     return (
-        f"{status}: t = {simulation.time:.6g} s after {simulation.step_count} steps; "
-        f"results in {folder}"
+        f"{status}: t = {simulation.time:.6g} s after {simulation.step_count} steps"
+        f"{binding(simulation)}; results in {folder}"
     )
+
+
+def binding(simulation) -> str:
+    """Which limit has bound most of the steps, and whom it was about."""
+    found = simulation.time_step.most_binding()
+    if found is None:
+        return ""
+    limit, count = found
+    return f", {count} of them bound by the {limit.name} limit ({whom(simulation, limit)})"

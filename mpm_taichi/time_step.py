@@ -236,10 +236,12 @@ class TimeStep:
         """Steps that a limit made shorter than the given one."""
         return 0 if self.given is None else self.counts.total() - self.counts["given"]
 
-    def most_binding(self) -> tuple[str, int] | None:
+    def most_binding(self) -> tuple[Limit, int] | None:
         """The limit that bound most steps of those that a limit bound, and how many."""
-        ranked = [(name, n) for name, n in self.counts.most_common() if name in self.binders]
-        return ranked[0] if ranked else None
+        ranked = [
+            self.binders[name] for name, _ in self.counts.most_common() if name in self.binders
+        ]
+        return (ranked[0], self.counts[ranked[0].name]) if ranked else None
 
     def state(self) -> dict[str, Any]:
         """All that later steps depend on, and the counts, as JSON can hold them."""
