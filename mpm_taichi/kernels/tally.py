@@ -95,7 +95,7 @@ def note_cut_node(i, gravity: Template, dt, grid: Template, tally: Template, row
     if ti.static(not grid.increment):
         raw, lost = p - given, p
     lost += ti.cast(mass * dt, tally.real) * gravity[None].cast(tally.real)
-    taken = 0.5 * raw.dot(raw) / ti.cast(mass, tally.real)
+    taken = energy(1.0, raw, tally.real) / ti.cast(mass, tally.real)
     add(tally.at_nodes, row, tally.nodes.given, taken)
     add(tally.at_nodes, row, tally.nodes.cut, taken)
     add_vector(tally.at_nodes, row, tally.nodes.lost, lost)
