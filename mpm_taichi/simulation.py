@@ -57,6 +57,8 @@ class Simulation:
     ):
         self.scene, self.device, self.threads_asked = scene, device, threads
         self.precision = precision or scene.method.precision or runtime.default_precision(device)
+        if scene.output.audit and device != "cpu":
+            raise InputError(f"output.audit: is for --device cpu (got {device}); leave it out")
         runtime.stop()
         refuse_too_much(scene, expected_counts(scene), device, self.precision)
         points, self.seeding = seed(scene)
@@ -66,8 +68,6 @@ class Simulation:
         self.ranges = np.cumsum([0, *counts])
         if threads and device != "cpu":
             raise InputError(f"--threads: is for --device cpu ({device} has its own)")
-        if scene.output.audit and device != "cpu":
-            raise InputError(f"output.audit: is for --device cpu (got {device}); leave it out")
         self.threads = threads or self._worthwhile_threads()
         if self.threads > MOST_THREADS:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")

@@ -95,7 +95,7 @@ def note_cut_node(i, gravity: Template, dt, grid: Template, tally: Template, row
     if ti.static(not grid.increment):
         raw, lost = p - given, p
     lost += ti.cast(mass * dt, tally.real) * gravity[None].cast(tally.real)
-    taken = 0.5 * raw.norm_sqr() / ti.cast(mass, tally.real)
+    taken = energy(1.0, raw, tally.real) / ti.cast(mass, tally.real)
     add(tally.at_nodes, row, tally.nodes.given, taken)
     add(tally.at_nodes, row, tally.nodes.cut, taken)
     add_vector(tally.at_nodes, row, tally.nodes.lost, lost)
@@ -172,10 +172,8 @@ def note_stress(
         old = unit * columns(particles.rows, p, particles.layout.stress, grid.dim)
         advance = ti.Matrix.identity(float, grid.dim) + dt * L
         new = V0_tau @ advance.inverse().transpose()
-        work = ti.cast(0.0, tally.real)
-        for d, e in ti.static(ti.ndrange(grid.dim, grid.dim)):
-            work += ti.cast(old[d, e] + new[d, e], tally.real) * ti.cast(L[d, e], tally.real)
-        add(tally.of_stress, row, tally.stress.work, 0.5 * ti.cast(dt, tally.real) * work)
+        work = (0.5 * dt) * ((old + new) * L).sum()
+        add(tally.of_stress, row, tally.stress.work, ti.cast(work, tally.real))
     put_columns(particles.rows, p, particles.layout.stress, unit_next * V0_tau)
 
 

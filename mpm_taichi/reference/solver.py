@@ -1,6 +1,7 @@
 """The step: the table of contents of the method."""
 
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ class Solver:
         self.gravity = np.array(gravity, float)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
-        self.tally = None
+        self.tally: Any = None
         if audited:
             force = body_force is not None
             self.tally = Tally(self.grid, walls, transfer, self.gravity, force)
