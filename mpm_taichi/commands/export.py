@@ -1,13 +1,13 @@
-"""Turn a run into something to share: a video, files for ParaView."""
+"""Turn a run into something to share: a page that plays it, a video, files for ParaView."""
 
 import argparse
 from pathlib import Path
 
 from ..errors import InputError
-from .arguments import number
+from .arguments import number, positive
 
 VIDEOS = ("mp4", "gif", "webp")
-KINDS = (*VIDEOS, "vtk")
+KINDS = ("html", *VIDEOS, "vtk")
 """The flags, each of which makes something."""
 
 HERE = Path()
@@ -16,6 +16,13 @@ HERE = Path()
 
 def add(parser) -> None:
     parser.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
+    _add_file(
+        parser, "html",
+        "the recorded particles as a page that plays them in a browser; default: RUN/player.html",
+    )  # fmt: skip
+    parser.add_argument(
+        "--every", type=positive, metavar="K", help="--html with each K-th frame; default: all"
+    )
     for kind, text in (
         ("mp4", "the pictures of the run as a video"),
         ("gif", "the pictures as a GIF of 256 colors"),
@@ -35,8 +42,15 @@ def add(parser) -> None:
 def execute(options) -> int:
     if not any(getattr(options, kind) for kind in KINDS):
         raise InputError(f"export: into what? {', '.join(f'--{kind}' for kind in KINDS)}")
+    if options.every and not options.html:
+        raise InputError("--every: is for --html")
     if options.fps and not any(getattr(options, kind) for kind in VIDEOS):
         raise InputError("--fps: is for --mp4, --gif and --webp")
+    if options.html:
+        from ..exports.player import export_player
+
+        file = _file(options, "html", "player.html")
+        export_player(options.folder, file, options.every or 1, options.overwrite)
     for kind in VIDEOS:
         if getattr(options, kind):
             from ..exports.video import export_video
