@@ -20,7 +20,7 @@ from mpm_taichi.kernels.p2g import p2g
 from mpm_taichi.kernels.residual import take_residual
 from mpm_taichi.kernels.sort import sort
 from mpm_taichi.kernels.whole_steps import Clock
-from mpm_taichi.time_step import Pace
+from mpm_taichi.time_step import HUGE, Pace
 
 SORTS, STEPS = 3, 3  # of a turn, and steps before each sort
 TOGETHER = 64  # steps in a launch
@@ -118,7 +118,7 @@ class Steps:
         self._step()
 
     def _step(self):
-        self.solver.step(0.0, self.dt, lambda speed: self.dt)
+        self.solver.step(0.0, self.dt, self.dt)
 
     def about(self):
         return {"particles": self.solver.particles.count, "cells": list(self.solver.grid.cells)}
@@ -152,11 +152,14 @@ class SmallScene:
     def __init__(self, dim, precision, particles, form):
         runtime.start("cpu", precision, 1, offline_cache=False)
         self.by_stage, self.dt = our_solver(dim, particles, form)
-        given = Pace(self.dt, safety=1, acoustic=0, wave_speed=0, travel=0, constant=0, growth=1)
+        given = Pace(
+            self.dt, safety=1, acoustic=HUGE, wave_speed=1, constant=HUGE, travel=HUGE,
+            deformation=HUGE, growth=1,
+        )  # fmt: skip
         self.whole, _ = our_solver(dim, particles, form, pace=given)
         if not self.whole.is_whole:
             raise ValueError(f"{form}, {particles} particles: no whole steps in one launch")
-        self.clock = Clock(0.0, self.dt, 1e6 * self.dt, 0.0, self.dt, np.inf)
+        self.clock = Clock(0.0, self.dt, 1e6 * self.dt, 0.0, self.dt, 0.0, 0.0, np.inf)
         for solver in (self.by_stage, self.whole):
             solver.start(self.dt)
         for function in (self._whole, self._by_stage):
@@ -168,7 +171,7 @@ class SmallScene:
 
     def _by_stage(self):
         for _ in range(TOGETHER):
-            self.by_stage.step(0.0, self.dt, lambda speed: self.dt)
+            self.by_stage.step(0.0, self.dt, self.dt)
         return TOGETHER
 
     def about(self):

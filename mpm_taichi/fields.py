@@ -13,9 +13,9 @@ SCRATCH = " (sort)"
 
 class FieldPlan(NamedTuple):
     """Records of `lanes` numbers, () for one, (n,) for a vector, (n, m) for a matrix, in an array
-    of `shape`.  `kind` is float, in the precision of the run, or int."""
+    of `shape`.  `kind` is float, in the precision of the run, ti.f64 or int."""
 
-    kind: type
+    kind: Any
     lanes: tuple[int, ...]
     shape: tuple[int, ...]
 
@@ -34,7 +34,8 @@ class FieldPlan(NamedTuple):
 
     def bytes(self, precision: str) -> int:
         """int has 4 bytes in either precision."""
-        number = 8 if self.kind is float and precision == "f64" else 4
+        wide = self.kind is ti.f64 or (self.kind is float and precision == "f64")
+        number = 8 if wide else 4
         return number * prod(self.lanes) * prod(self.shape)
 
 

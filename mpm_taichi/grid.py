@@ -14,16 +14,24 @@ from .kernels.blocks import BLOCK, CHUNK, GATE
 PAD = 4  # nodes
 
 
+def folded_axes(basis, walls, periodic) -> tuple[int, ...]:
+    """Axes with ghost nodes that are images.  Hat functions and modified splines give nothing to
+    the nodes behind a wall."""
+    mirrors = basis.support > 2 and not basis.modified
+    return tuple(sorted({*periodic, *(wall.axis for wall in walls if mirrors)}))
+
+
 class NodeLayout:
     """Where nodes lie in memory, and the fields that a grid of them has, by name.
 
     The box [0, cells] has ghost nodes around it, as wide as the stencil.  `groups` is the number of
-    materials; with `increment` each node has a second record."""
+    materials; with `increment`, or `audited`, each node has a second record."""
 
-    def __init__(self, cells, basis, groups, increment):
-        self.dim, self.cells, self.increment = len(cells), tuple(cells), increment
+    def __init__(self, cells, basis, groups, increment, audited=False):
+        self.dim, self.cells = len(cells), tuple(cells)
+        self.increment, self.audited = increment, audited
         self.ghost = self.support = basis.support
-        self.records = tuple(range(1 + increment))
+        self.records = tuple(range(1 + (increment or audited)))
         # Rows and planes are PAD nodes longer than the box: strides of a power of two would put
         # the lines of a stencil into the same few sets of the first-level cache.
         self.shape = tuple(n + 1 + 2 * self.ghost for n in cells)
@@ -38,7 +46,7 @@ class NodeLayout:
         # one address), and keeps a lost particle inside the field, longer by one stencil.
         self.mask = 2 ** (self.nodes - 1).bit_length() - 1
         self.apart = self.mask + 1 + basis.support * sum(self.strides)
-        length = self.apart * (2 if increment else 1)
+        length = self.apart * len(self.records)
         if length >= 2**31:
             raise InputError(
                 f"domain.cells: {' x '.join(map(str, cells))} cells need {length:.2e} nodes, more "
@@ -65,25 +73,25 @@ class NodeLayout:
 class Grid(NodeLayout):
     """Node i at (i - ghost) dx holds (momentum [kg m/s], mass [kg]) after P2G and (velocity [m/s],
     mass) after the grid update, in lanes 0 .. dim - 1 and dim.  With `increment` it has a second
-    record, at i + apart: (impulse of the stress [kg m/s], 0), then (v - v_old [m/s], 0).
+    record, at i + apart: (impulse of the stress [kg m/s], 0), then (v - v_old [m/s], 0); `audited`
+    has the first of these too.
 
     The closed domain [0, size] has `cells` cells.  `mass_cutoff` is the mass [kg] up to which a
     node counts as empty, `walls` and `periodic` the sides with a rule and the axes that close on
     themselves."""
 
     def __init__(
-        self, cells, dx, basis, groups, increment, mass_cutoff, walls, periodic, threads, atomic
-    ):
-        super().__init__(cells, basis, groups, increment)
+        self, cells, dx, basis, groups, increment, mass_cutoff, walls, periodic, threads, atomic,
+        audited=False,
+    ):  # fmt: skip
+        super().__init__(cells, basis, groups, increment, audited)
         self.dx, self.threads, self.atomic = dx, threads, atomic
         # See kernels/blocks.py.
         self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
         self.periodic = tuple(periodic)
         self.bounded = tuple(axis for axis in range(self.dim) if axis not in self.periodic)
         self.walled = tuple((wall.axis, wall.upper) for wall in walls)
-        # Hat functions and modified splines give nothing to the nodes behind a wall.
-        mirrors = basis.support > 2 and not basis.modified
-        self.folded = tuple(sorted({*self.periodic, *(wall.axis for wall in walls if mirrors)}))
+        self.folded = folded_axes(basis, walls, self.periodic)
         self.lines = list(product(range(basis.support), repeat=self.dim - 1))
         fields = {name: plan.field() for name, plan in self.fields.items()}
         self.node = fields["node"]
@@ -97,7 +105,9 @@ class Grid(NodeLayout):
         self.placed: Any = ti.field(int, ())
         self.lowest: Any = ti.Vector.field(self.dim, int, ())  # first node of a stencil
         self.highest: Any = ti.Vector.field(self.dim, int, ())
-        self.speed_squared: Any = ti.field(float, ())  # largest |v|^2 of the nodes in this step
+        # Largest of all particles in this step: |sum_i w_i v_i|^2, |L|^2 (Frobenius).
+        self.speed_squared: Any = ti.field(float, ())
+        self.rate_squared: Any = ti.field(float, ())
         self.cut: Any = ti.field(int, ())  # nodes that the cut-off emptied, counted each step
         numbers = {
             "dx": dx,
@@ -116,6 +126,8 @@ class Grid(NodeLayout):
         self.node_workers = self.workers(self.active_count[None] * CHUNK)
         low, high = self.lowest.to_numpy() - 1, self.highest.to_numpy() + self.support
         self.near_end = (low < self.ghost) | (high > self.ghost + np.array(self.cells))
+        at_end = (low <= self.ghost) | (high >= self.ghost + np.array(self.cells))
+        self.is_near_wall = any(at_end[axis] for axis, _ in self.walled)
 
     @property
     def stored(self) -> dict[str, Any]:

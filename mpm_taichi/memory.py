@@ -6,17 +6,19 @@ from math import gcd, inf, prod
 from .errors import InputError
 from .fields import SCRATCH, particle_fields, state_fields
 from .free_memory import free_memory
-from .grid import NodeLayout
+from .grid import NodeLayout, folded_axes
 from .kernels.rows import RowLayout
 from .sampling import Lattice
 from .snapshot import host_bytes
+from .tally import TallyLayout
 
 NUMBER = {"f32": 4, "f64": 8}
 
 
 @dataclass(frozen=True)
 class Memory:
-    """Bytes of each field, by name: those of all particles, those of all nodes; and the bytes that
+    """Bytes of each field, by name: those of all particles, those of all nodes, with the
+    tables of an audit; and the bytes that
     output takes on the host.  A few numbers besides, under 1 KiB, do not count."""
 
     particles: int
@@ -68,8 +70,9 @@ def planned_memory(scene, counts, precision, cells=None) -> Memory:
     method, dim, count = scene.method, scene.dimension, sum(counts)
     force = scene.field(scene.body_force)
     rows = RowLayout(
-        method.transfer_class, dim, method.stress_update == "musl", force is not None
-    ).count
+        method.transfer_class, dim, method.stress_update == "musl", force is not None,
+        scene.output.audit,
+    ).count  # fmt: skip
     plans = particle_fields(count, dim, rows, method.basis_class, force)
     materials = [scene.materials[body.material] for body in scene.bodies]
     for law in dict.fromkeys(map(type, materials)):
@@ -80,13 +83,21 @@ def planned_memory(scene, counts, precision, cells=None) -> Memory:
             plans[name] = plans[name + SCRATCH] = plan
     grid = NodeLayout(
         cells or scene.domain.cells, method.basis_class, len(set(materials)),
-        method.transfer_class.increment,
+        method.transfer_class.increment, scene.output.audit,
     )  # fmt: skip
+    of_nodes = dict(grid.fields)
+    if scene.output.audit:
+        rules, basis = scene.domain.rules, method.basis_class
+        of_nodes |= TallyLayout(
+            grid, rules, folded_axes(basis, rules, scene.domain.periodic), count,
+            len(set(materials)), method.transfer_class, any(scene.gravity_vector),
+            force is not None,
+        ).fields  # fmt: skip
     return Memory(
         particles=count,
         nodes=prod(grid.shape),
         of_particles={name: plan.bytes(precision) for name, plan in plans.items()},
-        of_nodes={name: plan.bytes(precision) for name, plan in grid.fields.items()},
+        of_nodes={name: plan.bytes(precision) for name, plan in of_nodes.items()},
         output=count * host_bytes(dim, NUMBER[precision]),
     )
 

@@ -48,12 +48,12 @@ class BodyPoints:
 class Law:
     """What the materials of one law share on the device, so that it is compiled once: `constants`
     [materials], the particles ends[k] ... ends[k + 1] - 1 of material k, and the history `state` of
-    all from `begin` on.
+    all from `begin` on.  `first` is the number of material 0 among those of all laws.
 
     H [n, dim, dim] of each material's particles is where the history starts."""
 
-    def __init__(self, materials, dim, dx, begin, H):
-        self.kind, self.begin = type(materials[0]), begin
+    def __init__(self, materials, dim, dx, first, begin, H):
+        self.kind, self.first, self.begin = type(materials[0]), first, begin
         numbers = [material.constants(dx) for material in materials]
         self.constants = ti.Struct.field(dict.fromkeys(numbers[0], float), shape=len(materials))
         for k, values in enumerate(numbers):
@@ -92,7 +92,7 @@ def groups_of(materials, dim, dx, H) -> list[Group]:
     for _, together in groupby(range(len(materials)), key=lambda k: type(materials[k])):
         mine = list(together)
         begin = ends[mine[0]] - len(H[mine[0]])
-        law = Law([materials[k] for k in mine], dim, dx, int(begin), [H[k] for k in mine])
+        law = Law([materials[k] for k in mine], dim, dx, mine[0], int(begin), [H[k] for k in mine])
         groups += [
             Group(materials[k], law, number, int(ends[k] - len(H[k])), int(ends[k]))
             for number, k in enumerate(mine)
@@ -130,10 +130,12 @@ class Particles:
     (kernels/guard.py), or the number of particles; `brought_in` counts those that were put back
     (kernels/outside.py)."""
 
-    def __init__(self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None):
+    def __init__(
+        self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None, audited=False
+    ):
         self.dim = bodies[0].x.shape[1]
         self.count = sum(len(body.x) for body in bodies)
-        self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None)
+        self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None, audited)
         self.transfer, self.basis, self.dx = transfer, basis, dx
         self.dtype = real_type()
         bodies, materials, id = grouped(bodies)

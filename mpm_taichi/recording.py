@@ -28,7 +28,7 @@ class RecordedFrame:
 
     time: float  # s
     step: int
-    position: np.ndarray  # [n, dim] m
+    position: np.ndarray  # [n, dim] m; nan of particles that were deleted
     velocity: np.ndarray  # [n, dim] m/s
     mass: np.ndarray  # [n] kg
     scalars: dict[str, np.ndarray]
@@ -37,8 +37,9 @@ class RecordedFrame:
 
     @property
     def kinetic_energy(self) -> np.ndarray:
-        """[n] J."""
-        return 0.5 * self.mass * self.scalars["speed"] ** 2
+        """[n] J; 0 of particles that were deleted."""
+        gone = np.isnan(self.position[:, 0])
+        return np.where(gone, 0, 0.5 * self.mass * self.scalars["speed"] ** 2)
 
 
 class Recording:

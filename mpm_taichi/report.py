@@ -7,6 +7,8 @@ import time
 from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__, stages
+from .audit import Line
+from .audit import summary as audit_summary
 from .disk_space import planned_disk
 from .recorders import Errors, History
 
@@ -20,6 +22,7 @@ class Report:
     def __init__(self, attempts, command: list[str], before=None):
         self.attempts, self.command = attempts, command
         self.before = dict(before or {})
+        self.audit: list[Line] = []  # closed when the run is done
         self.started = time.time()
 
     def content(self, status: str, error: str | None = None) -> dict:
@@ -43,10 +46,12 @@ class Report:
                 "shortest": time_step.shortest if simulation.step_count else None,
                 "longest": time_step.longest if simulation.step_count else None,
                 "chosen_by": "scene" if time_step.given is not None else "auto",
-                "longer_than_limit": time_step.too_long,
-                "limits_at_start": [
-                    limit._asdict() for limit in time_step.limits(simulation.start_speed)
-                ],
+                "shortened": time_step.shortened,
+                "binding": dict(time_step.counts),
+                "bound_by": {
+                    name: whom(simulation, limit) for name, limit in time_step.binders.items()
+                },
+                "limits_at_start": [limit._asdict() for limit in simulation.limits_at_start],
             },
             "seeding": [dataclasses.asdict(report) for report in simulation.seeding],
             "memory": simulation.memory.summary(),
@@ -67,6 +72,8 @@ class Report:
             result["conservation"] = conservation(history.first, history.last)
         if errors is not None:
             result["errors"] = errors.summary()
+        if self.audit:
+            result["audit"] = audit_summary(self.audit)
         return result
 
     def _processes_before(self) -> list[dict]:
@@ -76,6 +83,11 @@ class Report:
         kept = ("command", "status", "error", "started", "wall_seconds", "steps", "failures")
         last = {name: self.before.get(name) for name in kept}
         return [*self.before.get("processes_before", []), last]
+
+
+def whom(simulation, limit) -> str:
+    """What or whose a limit is: of its cause or its particle."""
+    return limit.cause if limit.particle is None else simulation.describe_particle(limit.particle)
 
 
 def versions() -> dict[str, str | None]:

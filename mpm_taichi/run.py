@@ -10,12 +10,14 @@ from rich.console import Console
 
 from . import run_folder
 from .attempts import Attempts
+from .audit import audit
+from .audit import describe as describe_audit
 from .disk_space import describe, planned_disk, refuse_full_disk
-from .errors import MotionError, RunError
+from .errors import InputError, MotionError, RunError
 from .interruption import Interrupted, Interruption
 from .progress import Progressing
 from .recorders import Errors
-from .report import Report
+from .report import Report, whom
 from .scene import dump_scene
 from .simulation import Simulation
 from .trouble import write_trouble
@@ -43,10 +45,11 @@ def carry_out(attempts: Attempts, options, console: Console, began: float, befor
         with Interruption() as interruption, Progressing(console, began) as progressing:
             interruption.watch(attempts.simulation)
             attempts.run([interruption, progressing])
+            report.audit = audit(attempts.simulation, folder / "history.csv")
     except MotionError as failure:
         status, error, code = "failed", str(failure), 1
         error += write_trouble(attempts, failure)
-    except RunError as failure:
+    except (RunError, InputError) as failure:
         status, error, code = "failed", str(failure), 1
     except Interrupted as signal_name:
         status, error, code = "interrupted", f"by {signal_name}", signal_name.exit_code
@@ -66,6 +69,13 @@ def carry_out(attempts: Attempts, options, console: Console, began: float, befor
     errors = attempts.recorder(Errors)
     if errors is not None and errors.summary():
         console.print(errors.describe(), soft_wrap=True)
+    if report.audit:
+        console.print(describe_audit(report.audit), soft_wrap=True)
+    if options.strict and any(line.verdict == "FAIL" for line in report.audit):
+        code, error = (
+            code or 1,
+            error or "a line of the audit fails (--strict); all results are kept",
+        )
     if error:
         print(f"{status}: {error}", file=sys.stderr)  # also where the console is quiet
     if code and attempts.saved is not None:
@@ -104,12 +114,21 @@ def announce(simulation, console):
         f"{scene.method.basis} basis, {scene.method.transfer.type}",
         soft_wrap=True,
     )  # fmt: skip
-    for line in simulation.time_step.describe(simulation.start_speed, simulation.dt):
+    for line in simulation.time_step.describe(simulation.dt):
         console.print(line, soft_wrap=True)
 
 
 def summary(simulation, folder: Path, status: str) -> str:
     return (
-        f"{status}: t = {simulation.time:.6g} s after {simulation.step_count} steps; "
-        f"results in {folder}"
+        f"{status}: t = {simulation.time:.6g} s after {simulation.step_count} steps"
+        f"{binding(simulation)}; results in {folder}"
     )
+
+
+def binding(simulation) -> str:
+    """Which limit has bound most of the steps, and whom it was about."""
+    found = simulation.time_step.most_binding()
+    if found is None:
+        return ""
+    limit, count = found
+    return f", {count} of them bound by the {limit.name} limit ({whom(simulation, limit)})"

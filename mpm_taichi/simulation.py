@@ -12,13 +12,14 @@ from .errors import InputError, MotionError
 from .kernels.guard import guard
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
+from .ledger import begin_ledger, ledger
 from .memory import planned_memory, refuse_too_much
 from .scene import Scene
 from .schedules import EverySeconds, even_step
 from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
-from .time_step import TimeStep
+from .time_step import Motion, TimeStep
 from .trouble import fault, in_words, particle_values
 
 PARTICLES_PER_THREAD = 2048
@@ -56,6 +57,8 @@ class Simulation:
     ):
         self.scene, self.device, self.threads_asked = scene, device, threads
         self.precision = precision or scene.method.precision or runtime.default_precision(device)
+        if scene.output.audit and device != "cpu":
+            raise InputError(f"output.audit: is for --device cpu (got {device}); leave it out")
         runtime.stop()
         refuse_too_much(scene, expected_counts(scene), device, self.precision)
         points, self.seeding = seed(scene)
@@ -74,7 +77,13 @@ class Simulation:
         self.initial_position = np.concatenate([body.undeformed for body in bodies])
         method = scene.method
         given = None if scene.time.step == "auto" else scene.time.step
-        self.time_step = TimeStep(scene, given, scene.time.safety, self._half_width(bodies))
+        motion = Motion(
+            max(float(np.linalg.norm(body.v, axis=1).max()) for body in bodies),
+            max(float(np.linalg.norm(b.velocity_gradient, axis=(1, 2)).max()) for b in bodies),
+        )
+        self.time_step = TimeStep(
+            scene, given, scene.time.safety, self._half_width(bodies), motion, scene.time.enforce
+        )
         self.time_step.reduction = reduction
         try:
             self.solver = Solver(
@@ -83,7 +92,8 @@ class Simulation:
                 mass_cutoff=method.mass_cutoff, periodic=scene.domain.periodic,
                 stress_update=method.stress_update, filter_order=method.filter_order,
                 flip_part=method.flip_part, body_force=scene.field(scene.body_force),
-                pace=self.time_step.pace, threads=self.threads, atomic=device != "cpu",
+                audited=scene.output.audit, pace=self.time_step.pace, threads=self.threads,
+                atomic=device != "cpu",
             )  # fmt: skip
         except (RuntimeError, MemoryError):  # Taichi's allocator says no more than that
             raise InputError(
@@ -94,15 +104,23 @@ class Simulation:
         self.start_mass = float(self._constant["mass"].sum())
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
-        self.start_speed = float(max(np.linalg.norm(body.v, axis=1).max() for body in bodies))
-        self.limit = self.time_step.limits(self.start_speed)[0]
+        self._look()
+        self.limits_at_start = self.time_step.limits(motion)
+        self.limit = self.limits_at_start[0]
+        self.time_step.refuse(self.limit)
         self.last_dt = 0.0
-        self.dt = self._fitting(self.time_step.choose(self.start_speed), self.time)
+        self.dt = self._fitting(self.time_step.begin(), self.time)
         self.first_dt = self.dt
         self.guard_steps, self.guarded = GUARD_STEPS, 0
         self.is_started = False  # recorders have seen the start
         self.stop_asked = False  # `advance` returns after the step or launch that it is at
+        self.start_volume = sum(
+            float(body.V0 @ np.linalg.det(np.eye(scene.dimension) + body.displacement_gradient))
+            for body in bodies
+        )
         self.solver.start(self.dt)
+        if scene.output.audit:
+            begin_ledger(self.solver, self.sums)
 
     def _half_width(self, bodies):
         """Of the smallest particle [cells].  InputError where a basis that takes particles as
@@ -165,6 +183,7 @@ class Simulation:
     def _forget_moment(self):
         self.__dict__.pop("snapshot", None)
         self.__dict__.pop("sums", None)
+        self.__dict__.pop("ledger", None)
 
     def _look_after(self):
         """MotionError where a particle is lost or the step has collapsed, and, looked for now and
@@ -204,33 +223,42 @@ class Simulation:
         dt = self.dt
         landing = self.time + 1.5 * dt > self.next_output
         time = self.next_output if landing else self.time + dt
-        self.dt = self.solver.step(
-            self.time, dt, lambda speed: self._fitting(self.time_step.choose(speed), time)
-        )
-        self._note_steps(time, [dt])
+        dt_next = self._fitting(self.time_step.choose(), time)
+        motion = self.solver.step(self.time, dt, dt_next)
+        self.time_step.move(dt, motion)
+        self.dt = dt_next
+        self._note_steps(time, [dt], [self.time_step.code])
         return landing
 
     def _take_whole_steps(self, most) -> bool:
         more = self.output_count + 1 < self.outputs.count
+        rule = self.time_step
         clock = Clock(
             self.time, self.dt, self.next_output,
             self.outputs.time(self.output_count + 2) if more else 0.0,
-            self.time_step.last, self.solver.drift,
+            rule.last, rule.motion.speed, rule.motion.rate, self.solver.drift, rule.strain_left,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
         together = min(most, MOST_TOGETHER, patience, self.guard_steps)
         self.solver.take_whole_steps(clock, int(together))
-        self.dt, self.time_step.last = clock.dt, clock.last
-        self._note_steps(clock.time, clock.lengths.tolist())
+        self.dt, rule.last, rule.strain_left = clock.dt, clock.last, clock.strain_left
+        rule.motion = Motion(clock.speed, clock.rate)
+        self._note_steps(clock.time, clock.lengths.tolist(), clock.bounds.tolist())
         landing = clock.time == self.next_output
         if not clock.is_good:
             self._fitting(clock.last, clock.time)  # says what is wrong with it
         return landing
 
-    def _note_steps(self, time, lengths):
+    def _note_steps(self, time, lengths, bounds):
         self.time, self.step_count, self.last_dt = time, self.step_count + len(lengths), lengths[-1]
-        for dt in lengths:
-            self.time_step.note(dt, self.limit)
+        self.time_step.note(lengths, bounds)
+        if self.time_step.is_look_due:
+            self._look()
+
+    def _look(self):
+        """At the stiffness that all particles have now."""
+        self.time_step.see(self.solver.stiffness())
+        self.solver.pace = self.time_step.pace
 
     def run(self, recorders=()) -> None:
         """Step to the end.  Each recorder sees the start, every output and every step; one that has
@@ -256,7 +284,7 @@ class Simulation:
             setattr(self, name, state[name])
         self.time_step.restore(state["time_step"])
         self.solver.restore(state["solver"], arrays)
-        self.solver.put_pace(self.time_step.pace)
+        self.solver.pace = self.time_step.pace
         self._forget_moment()
         self._forget_masses()
         self.guard()
@@ -264,7 +292,7 @@ class Simulation:
     def shorten_steps(self, reduction: float) -> None:
         """From the second one on: the impulse of the first is with the particles already."""
         self.time_step.reduction = reduction
-        self.solver.put_pace(self.time_step.pace)
+        self.solver.pace = self.time_step.pace
 
     def _steps_to_next_record(self, recorders):
         if self.step_count == 0:  # the first step compiles
@@ -309,6 +337,11 @@ class Simulation:
         if not all(np.isfinite(values).all() for values in found.values()):
             _ = self.snapshot  # names the particle that is no number
         return found
+
+    @cached_property
+    def ledger(self) -> dict[str, float]:
+        """What the audit has counted since the start (ledger.py); nothing where it is off."""
+        return ledger(self.solver, self.sums) if self.scene.output.audit else {}
 
     def _bad(self, particle) -> MotionError:
         values = particle_values(self.solver, particle)
@@ -359,8 +392,12 @@ class Simulation:
                 count = int(np.nansum(law.state.get_member_field(name).to_numpy(), dtype=float))
                 if count:
                     found[f"{words} (counted each step)"] = count
-        if self.time_step.too_long:
-            found[f"steps longer than the {self.limit.name} limit"] = self.time_step.too_long
+        if self.time_step.shortened:
+            found["steps shorter than time.step, since a limit asked for it"] = (
+                self.time_step.shortened
+            )
+        elif self.time_step.is_too_long(self.limit):
+            found[f"steps longer than the {self.limit.name} limit"] = self.step_count
         return found
 
     def describe_particle(self, number: int) -> str:

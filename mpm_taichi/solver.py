@@ -17,10 +17,15 @@ from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.sort import sort, take_up
 from .kernels.start_moments import start_moments
+from .kernels.stiffness import stiffest
+from .kernels.tally import NoTally, note_at_walls, note_start
 from .kernels.update_stress import update_stress
 from .kernels.whole_steps import Clock, whole_steps
 from .kernels.wrap import wrap
+from .materials import Material
 from .particles import Particles
+from .tally import Tally
+from .time_step import Motion, Stiffness
 from .transfers import FlipPart
 
 FEW = 8192
@@ -44,29 +49,39 @@ class Solver:
     def __init__(
         self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
         stress_update="usl", flip_part=None, filter_order=1, body_force=None,
-        pace=None, threads=1, atomic=False,
+        audited=False, pace=None, threads=1, atomic=False,
     ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
         self.stress_update, self.body_force = stress_update, body_force
         self.flip_part, self.filter_order = flip_part or FlipPart(), filter_order
         self.particles = Particles(
-            bodies, basis, transfer, dx, keeps_pic=stress_update == "musl", body_force=body_force
-        )
+            bodies, basis, transfer, dx, keeps_pic=stress_update == "musl", body_force=body_force,
+            audited=audited,
+        )  # fmt: skip
         self.grid = Grid(
             cells, dx, basis, self.particles.group_count, transfer.increment,
             self._mass_cutoff(mass_cutoff, bodies, cells), walls, periodic, threads, atomic,
+            audited,
         )  # fmt: skip
         self.gravity = ti.Vector.field(self.particles.dim, float, ())
         self.gravity[None] = list(gravity)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
+        self.tally: Any = NoTally
+        if audited:
+            self.tally = Tally(
+                self.grid,
+                walls,
+                self.particles.count,
+                self.particles.group_count,
+                transfer,
+                gravity,
+                body_force is not None,
+            )  # fmt: skip
         few = self.particles.count <= FEW and not atomic
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
-        if self.is_whole:
-            numbers = dict.fromkeys(self._of_pace(pace), ti.f64)  # f64 in every run
-            self.pace: Any = ti.Struct.field(numbers, shape=())
-            self.put_pace(pace)
+        self.pace = pace
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -82,33 +97,22 @@ class Solver:
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
 
-    def _of_pace(self, pace):
-        """The rule on the device, with the FLIP part of a blend."""
-        return pace._asdict() | {
-            "flip_ratio": self.flip_part.ratio,
-            "flip_rate": self.flip_part.rate,
-        }
-
-    def put_pace(self, pace):
-        """The rule of the steps to come, for those that the device chooses."""
-        if self.is_whole:
-            for name, number in self._of_pace(pace).items():
-                self.pace[None][name] = number
-
     def start(self, dt):
         """Write the rows of the first step, of length dt [s]."""
+        if self.tally.is_on and not self.transfer.increment:
+            note_start(self.particles, self.grid, self.basis, self.transfer, self.tally)
         self.update(0.0, dt)
 
     def update(self, dt, dt_next, **parts):
         for group in self.particles.groups:
             alpha = self.flip_part(dt)
             update_stress(
-                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
-            )
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha,
+                tally=self.tally, **parts,
+            )  # fmt: skip
 
     def sort_if_due(self):
-        """Slabs leave room for one cell of drift.  Particles move with sum_i w_i v_i, the weights
-        are >= 0 and sum to 1: none is faster than the fastest node."""
+        """Slabs leave room for one cell of drift, of which the steps taken tell exactly."""
         if not self.drift < 0.99:
             if self.grid.periodic:
                 wrap(self.particles, self.grid)
@@ -116,9 +120,8 @@ class Solver:
             self.drift = 0.0
             self.sorts += 1
 
-    def step(self, time, dt, choose_dt):
-        """Advance from `time` by dt [s]; choose_dt(speed) gives the length of the next step from
-        the largest nodal speed [m/s].  Returns that length.
+    def step(self, time, dt, dt_next) -> Motion:
+        """Advance from `time` by dt [s], the next step being of length dt_next.
 
         USL (update stress last) takes the velocity gradient L from the new velocities of the nodes,
         which makes F the gradient of the motion; its impulse is that of the next step.  USF (first)
@@ -129,8 +132,6 @@ class Solver:
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
         self.map_motion(time, dt)
-        speed = sqrt(self.grid.speed_squared[None])
-        dt_next = choose_dt(speed)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
         elif self.stress_update == "usf":
@@ -139,8 +140,9 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        self.drift += dt * speed / self.grid.dx
-        return dt_next
+        motion = Motion(sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None]))
+        self.drift += dt * motion.speed / self.grid.dx
+        return motion
 
     def take_whole_steps(self, clock: Clock, most: int):
         """Up to `most` steps as `step` would take them, in one launch."""
@@ -148,18 +150,18 @@ class Solver:
         clock.drift = self.drift
         whole_steps(
             self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
-            self.body_force, self.pace, clock, most,
+            self.body_force, self.flip_part, self.pace, clock, most, self.tally,
         )  # fmt: skip
         self.drift = clock.drift
 
     @property
     def stored(self) -> dict[str, Any]:
         """The fields that a checkpoint keeps, by name."""
-        return self.particles.stored | self.grid.stored
+        return self.particles.stored | self.grid.stored | self.tally.stored
 
     def state(self) -> dict[str, Any]:
         """The numbers that belong to them."""
-        return {"drift": self.drift, "sorts": self.sorts}
+        return {"drift": self.drift, "sorts": self.sorts, "tally_start": list(self.tally.start)}
 
     def restore(self, state: dict[str, Any], arrays) -> None:
         """Go on from fields and numbers of before: on a CPU as if never interrupted, to the last
@@ -167,6 +169,7 @@ class Solver:
         for name, field in self.stored.items():
             field.from_numpy(arrays[name])
         self.drift, self.sorts = state["drift"], state["sorts"]
+        self.tally.start = state["tally_start"]
         self.particles.lost[None] = self.particles.count
         if self.sorts:
             take_up(self.particles, self.grid)
@@ -177,16 +180,26 @@ class Solver:
         if deletes:
             self.drift = inf  # they are far from where the sort has found them
 
+    def stiffness(self) -> dict[Material, Stiffness]:
+        """Of each material now."""
+        return {
+            group.material: Stiffness(*stiffest(self.particles, group, self.grid))
+            for group in self.particles.groups
+        }
+
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""
         if self.body_force is not None:
             push(self.particles, self.grid, self.body_force, time, dt)
         clear(self.grid)
         p2g(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "given")
         fold_ghosts(self.grid, self.walls, self.gravity, dt)
-        grid_update(self.grid, self.walls, self.gravity, dt)
+        grid_update(self.grid, self.walls, self.gravity, dt, self.tally)
+        self.note_at_walls(dt, "kept")
         fill_ghosts(self.grid, self.walls, self.gravity)
-        g2p(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "taken")
+        g2p(self.particles, self.grid, self.basis, self.transfer, dt=dt, tally=self.tally)
         if self.transfer.filtered:
             take_residual(
                 self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
@@ -201,3 +214,7 @@ class Solver:
         grid_update(self.grid, self.walls, self.gravity, 0.0)
         fill_ghosts(self.grid, self.walls, self.gravity)
         g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")
+
+    def note_at_walls(self, dt, when):
+        if self.tally.has_walls:
+            note_at_walls(self.grid, self.gravity, dt, self.flip_part(dt), self.tally, when)

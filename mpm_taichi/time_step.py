@@ -1,150 +1,284 @@
 """How long a step may be, and why.
 
-Limits from numerics.md, chapters 4 and 5, each for the undeformed material and the largest speed:
+Limits from numerics.md, chapters 4 and 5, for the deformation and the motion of the moment:
 
     acoustic           0.9 b dx / (c + |v|)          b: bulk limit of the basis, c: wave speed
     isolated particle  l dx sqrt(rho / M_d)          l: limit of transfer and basis for one particle
     travel             0.5 dx / |v|
+    deformation        0.2 / |grad v|                Frobenius norm; keeps det(I + dt grad v) > 0
     gravity            sqrt(0.5 dx / |g|)
     viscosity          rho dx^2 / (4 eta)
+
+|v| is the largest speed at which a particle moves, sum_i w_i v_i.  Nodes may be much faster: one
+that a particle hardly touches is pushed by T dw / (w m), and dw / w is unbounded; but it gives the
+particle only w times that.  Nothing breaks where a particle moves further than half a cell, since
+the sort adds up what particles have moved; the motion is only resolved less well.
+
+The motion is that of the step before, of which an impact may make much more within one step: a
+reason for `safety`.  Stiffness is looked at anew before that of any particle can have tripled,
+which changes c by less than the factor that a safety of 0.5 leaves.
 """
 
-from math import hypot, inf, sqrt
+from collections import Counter
+from math import hypot, inf, log, sqrt
 from typing import Any, NamedTuple
 
+from .errors import InputError
+
 GROWTH = 1.02
-"""The length that an automatic step may have shrinks at once and grows by at most this factor from
-one step to the next: steps that follow the phase of an oscillation would feed energy into it.
-Steps are cut further, at most in half, to land on outputs."""
+"""The length that a step may have shrinks at once and grows by at most this factor from one step to
+the next: steps that follow the phase of an oscillation would feed energy into it.  Steps are cut
+further, at most in half, to land on outputs."""
+
+HUGE = 1e150
+"""A limit [s] that limits nothing, and the inverse of a speed that counts as none."""
+
+BOUNDS = ("given", "growth", "acoustic", "constant", "travel", "deformation")
+"""What may bind the length of a step; "constant" is the shortest of the limits that do not depend
+on the motion."""
 
 
-HUGE = 1e300
-"""A limit [s] that limits nothing."""
+class Motion(NamedTuple):
+    """The largest speed |sum_i w_i v_i| [m/s] and the largest |grad v| (Frobenius norm) [1/s] of
+    all particles."""
+
+    speed: float = 0.0
+    rate: float = 0.0
+
+
+class Stiffness(NamedTuple):
+    """Of a material: the largest rho0 c^2 and M_d [Pa] of its particles, and the places of these
+    particles in the scene (None: of the undeformed material)."""
+
+    wave: float
+    wave_particle: int | None
+    lone: float
+    lone_particle: int | None
 
 
 class Limit(NamedTuple):
-    """A step of `seconds` is the longest that `name` allows, because of `cause`."""
+    """A step of `seconds` is the longest that `name` allows, because of `cause`, and there of
+    `particle` (its place in the scene) if it is about one."""
 
     name: str
     seconds: float
     cause: str
+    particle: int | None = None
 
 
 class Pace(NamedTuple):
-    """The rule of the length of a step as numbers, for the device: `given` [s], or 0 and the limits
-    acoustic / (wave_speed + |v|), travel / |v| and constant [s], times `safety`, at most `growth`
-    times the last."""
+    """The rule of the length of a step as numbers, for the device: at most `longest` [s] and
+    `growth` times the last, and `safety` times acoustic / (wave_speed + |v|), constant [s],
+    travel / |v|, deformation / |grad v|."""
 
-    given: float
+    longest: float
     safety: float
     acoustic: float  # m
     wave_speed: float  # m/s
-    travel: float  # m
     constant: float  # s
+    travel: float  # m
+    deformation: float
     growth: float
 
-
-def limits(materials, basis, transfer, dx, gravity, speed, half_width) -> list[Limit]:
-    """All limits, shortest first.  `materials`: name -> material; speed [m/s] of the fastest,
-    half_width [cells] of the smallest particle."""
-    found = []
-    for name, material in materials.items():
-        c = material.wave_speed()
-        found.append(
-            Limit("acoustic", 0.9 * basis.bulk_limit * dx / (c + speed), f"material {name}")
+    def step(self, motion: Motion, last: float) -> tuple[float, int]:
+        """The longest step [s] after one of length `last`, and which of BOUNDS it is."""
+        allowed = (
+            self.longest,
+            self.growth * last,
+            self.safety * self.acoustic / max(self.wave_speed + motion.speed, 1 / HUGE),
+            self.safety * self.constant,
+            self.safety * self.travel / max(motion.speed, 1 / HUGE),
+            self.safety * self.deformation / max(motion.rate, 1 / HUGE),
         )
-        isolated = transfer.isolated_limit(basis, half_width)
-        if isolated is not None:
-            stiffness = material.dilatation_modulus(len(gravity))
-            seconds = isolated * dx * sqrt(material.density / stiffness)
-            found.append(Limit("isolated particle", seconds, f"material {name}"))
-        if material.shear_viscosity() > 0:
-            seconds = 0.25 * material.density * dx**2 / material.shear_viscosity()
-            found.append(Limit("viscosity", seconds, f"material {name}"))
-    if speed > 0:
-        found.append(Limit("travel", 0.5 * dx / speed, f"speed {speed:.3g} m/s"))
-    if any(gravity):
-        found.append(Limit("gravity", sqrt(0.5 * dx / hypot(*gravity)), "gravity"))
-    return sorted(found, key=lambda limit: limit.seconds)
-
-
-KEPT = ("last", "shortest", "longest", "too_long", "reduction")
-"""Of a TimeStep, in a checkpoint."""
+        length = min(allowed)
+        return length, allowed.index(length)
 
 
 class TimeStep:
-    """Chooses the length of each step: as given, or `safety` times the shortest limit.
+    """Chooses the length of each step: `safety` times the shortest limit; or as given, shorter
+    where a limit asks for it, unless `enforce` is false.
 
-    half_width [cells]: of the smallest particle, which a basis may take as extended.  `reduction`
-    shortens all of them, after an attempt that has failed."""
+    `counts` tells how many steps each limit has bound, or the given length, or GROWTH; `binders`
+    the last limit of each name that did.  `motion` is that of the last step, `strain_left` what
+    particles may be strained before their stiffness has to be seen; half_width [cells]: of the
+    smallest particle, which a basis may take as extended.  `reduction` shortens all steps, after an
+    attempt that has failed."""
 
-    def __init__(self, scene, given, safety, half_width=0.25):
-        self.scene, self.given, self.safety, self.half_width = scene, given, safety, half_width
-        self.last = inf
-        self.shortest, self.longest, self.too_long = inf, 0.0, 0
-        self.reduction = 1.0  # after a failed attempt
+    def __init__(self, scene, given, safety, half_width=0.25, motion=None, enforce=True):
+        self.scene, self.given, self.safety = scene, given, safety
+        self.enforce, self.motion = enforce, motion or Motion()
+        method = scene.method
+        self.isolated = method.transfer_class.isolated_limit(method.basis_class, half_width)
+        self.materials = {body.material: scene.materials[body.material] for body in scene.bodies}
+        self.reduction = 1.0
+        self.last, self.code = inf, 0
+        self.shortest, self.longest = inf, 0.0
+        self.counts: Counter[str] = Counter()
+        self.binding, self.binders = BOUNDS[0], {}
+        self.see({
+            material: Stiffness(
+                material.density * material.wave_speed() ** 2, None,
+                material.dilatation_modulus(scene.dimension), None,
+            )
+            for material in self.materials.values()
+        })  # fmt: skip
 
-    def limits(self, speed):
-        """All limits at the largest speed [m/s], of the materials that bodies have."""
-        method = self.scene.method
-        used = {body.material: self.scene.materials[body.material] for body in self.scene.bodies}
-        return limits(
-            used, method.basis_class, method.transfer_class,
-            self.scene.cell_size, self.scene.gravity_vector, speed, self.half_width,
-        )  # fmt: skip
+    def see(self, stiffness: dict[Any, Stiffness]) -> None:
+        """The stiffness of each material now: it decides until the next look."""
+        self.stiffness = stiffness
+        steepest = max(m.stiffening(self.scene.dimension) for m in self.materials.values())
+        self.strain_left = log(3) / steepest
+        at_rest = self.limits(Motion())
+        acoustic = [limit for limit in at_rest if limit.name == "acoustic"]
+        others = [limit for limit in at_rest if limit.name != "acoustic"]
+        self.at_rest = {"acoustic": acoustic[0], "constant": others[0] if others else None}
 
     @property
     def pace(self) -> Pace:
-        """The same rule as `choose`."""
-        dx, at_rest = self.scene.cell_size, self.limits(0.0)
-        fixed = [limit.seconds for limit in at_rest if limit.name != "acoustic"]
-        acoustic = 0.9 * self.scene.method.basis_class.bulk_limit * dx
-        wave_speed = max(acoustic / limit.seconds for limit in at_rest if limit.name == "acoustic")
+        """The rule until the next look."""
+        a, acoustic, others = self._acoustic, self.at_rest["acoustic"], self.at_rest["constant"]
+        free = self.given is not None and not self.enforce
         return Pace(
-            given=self.reduction * (self.given or 0.0), safety=self.reduction * self.safety,
-            acoustic=acoustic, wave_speed=wave_speed,
-            travel=0.5 * dx, constant=min(fixed, default=HUGE), growth=GROWTH,
+            longest=HUGE if self.given is None else self.reduction * self.given,
+            safety=self.reduction * (self.safety if self.given is None else 1.0),
+            acoustic=HUGE if free else a, wave_speed=1.0 if free else a / acoustic.seconds,
+            constant=HUGE if free or not others else others.seconds,
+            travel=HUGE if free else 0.5 * self.scene.cell_size,
+            deformation=HUGE if free else 0.2,
+            growth=GROWTH,
         )  # fmt: skip
 
-    def choose(self, speed: float) -> float:
-        """The longest step [s] that may be taken at the largest speed [m/s]."""
-        if self.given is not None:
-            return self.reduction * self.given
-        safe = self.reduction * self.safety * self.limits(speed)[0].seconds
-        self.last = min(safe, GROWTH * self.last)
+    @property
+    def _acoustic(self):
+        return 0.9 * self.scene.method.basis_class.bulk_limit * self.scene.cell_size
+
+    @property
+    def is_look_due(self) -> bool:
+        """Whether the stiffness may have changed since it was seen."""
+        return not self.strain_left > 0
+
+    def limits(self, motion: Motion) -> list[Limit]:
+        """All limits in a motion, shortest first."""
+        dx, gravity, found = self.scene.cell_size, self.scene.gravity_vector, []
+
+        def add(name, seconds, cause, particle=None):
+            found.append(Limit(name, seconds, cause, particle))
+
+        for word, material in self.materials.items():
+            name, now, rho = f"material {word}", self.stiffness[material], material.density
+            speed = max(sqrt(now.wave / rho) + motion.speed, 1 / HUGE)
+            add("acoustic", self._acoustic / speed, name, now.wave_particle)
+            if self.isolated is not None and now.lone > 0:
+                seconds = self.isolated * dx * sqrt(rho / now.lone)
+                add("isolated particle", seconds, name, now.lone_particle)
+            if material.shear_viscosity() > 0:
+                add("viscosity", 0.25 * rho * dx**2 / material.shear_viscosity(), name)
+        if motion.speed > 0:
+            add("travel", 0.5 * dx / motion.speed, f"speed {motion.speed:.3g} m/s")
+        if motion.rate > 0:
+            add("deformation", 0.2 / motion.rate, f"velocity gradient {motion.rate:.3g} 1/s")
+        if any(gravity):
+            add("gravity", sqrt(0.5 * dx / hypot(*gravity)), "gravity")
+        return sorted(found, key=lambda limit: limit.seconds)
+
+    def begin(self) -> float:
+        """The longest that the first step may be [s]."""
+        longest = self.choose()
+        self.binding = self._binding(self.code)
+        return longest
+
+    def choose(self) -> float:
+        """The longest step [s] that may be taken next, after the motion of the last step."""
+        self.last, self.code = self.pace.step(self.motion, self.last)
         return self.last
 
-    def describe(self, speed: float, dt: float) -> list[str]:
+    def move(self, dt: float, motion: Motion) -> None:
+        """Take note of the motion in a step."""
+        self.motion = motion
+        self.strain_left -= dt * motion.rate
+
+    def note(self, lengths, codes) -> None:
+        """Remember steps that were taken, and for each which of BOUNDS binds the one after it."""
+        for dt, code in zip(lengths, codes, strict=True):
+            self.shortest, self.longest = min(self.shortest, dt), max(self.longest, dt)
+            self.counts[self.binding] += 1
+            self.binding = self._binding(code)
+
+    def _binding(self, code):
+        """The name of what binds, and whom that is about."""
+        name, limit = BOUNDS[code], None
+        if name in ("acoustic", "constant"):
+            limit = self.at_rest[name]
+        elif name in ("travel", "deformation"):
+            limit = next(each for each in self.limits(self.motion) if each.name == name)
+        if limit is None:
+            return name
+        self.binders[limit.name] = limit
+        return limit.name
+
+    def is_too_long(self, limit: Limit) -> bool:
+        """Whether the given step is longer than a limit, by more than it was rounded."""
+        return self.given is not None and self.given > limit.seconds * (1 + 1e-9)
+
+    def refuse(self, limit: Limit) -> None:
+        """InputError where the given step is longer than a limit at the start."""
+        if not self.enforce or not self.is_too_long(limit):
+            return
+        raise InputError(
+            f"time.step: {self.given:g} s is longer than the {limit.name} limit of "
+            f"{limit.seconds:.4g} s ({limit.cause}): the run could blow up. Take `step: auto`, a "
+            f"step of at most {limit.seconds:.4g}, or, to have it exactly as it is, "
+            "`time.enforce: false`"
+        )
+
+    @property
+    def shortened(self) -> int:
+        """Steps that a limit made shorter than the given one."""
+        return 0 if self.given is None else self.counts.total() - self.counts["given"]
+
+    def most_binding(self) -> tuple[Limit, int] | None:
+        """The limit that bound most steps of those that a limit bound, and how many."""
+        ranked = [
+            self.binders[name] for name, _ in self.counts.most_common() if name in self.binders
+        ]
+        return (ranked[0], self.counts[ranked[0].name]) if ranked else None
+
+    def state(self) -> dict[str, Any]:
+        """All that later steps depend on, and the counts, as JSON can hold them."""
+        return {
+            "last": self.last, "code": self.code, "binding": self.binding,
+            "motion": list(self.motion), "strain_left": self.strain_left,
+            "stiffness": [list(self.stiffness[m]) for m in self.materials.values()],
+            "reduction": self.reduction, "shortest": self.shortest, "longest": self.longest,
+            "counts": dict(self.counts),
+            "binders": [list(limit) for limit in self.binders.values()],
+        }  # fmt: skip
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Go on from a state of before, of the same scene."""
+        seen = zip(self.materials.values(), state["stiffness"], strict=True)
+        self.see({material: Stiffness(*values) for material, values in seen})
+        self.motion, self.counts = Motion(*state["motion"]), Counter(state["counts"])
+        self.binders = {values[0]: Limit(*values) for values in state["binders"]}
+        for name in ("last", "code", "binding", "strain_left", "reduction", "shortest", "longest"):
+            setattr(self, name, state[name])
+
+    def describe(self, dt: float) -> list[str]:
         """What the first step is and why, in words."""
-        shortest = self.limits(speed)[0]
+        shortest = self.limits(self.motion)[0]
         binding = f"{shortest.name} limit {shortest.seconds:.3g} s ({shortest.cause})"
         if self.given is None:
             lines = [f"time step {dt:.4g} s: auto, at most {self.safety:g} of the {binding}"]
         else:
             lines = [f"time step {dt:.4g} s: given; {binding}"]
-        if self.given is not None and self.given > shortest.seconds:
+        if not self.enforce and self.is_too_long(shortest):
             lines.append(
-                f"warning: time.step is {self.given / shortest.seconds:.3g} times the {binding}: "
-                "the run may blow up; `step: auto` chooses a stable one"
+                f"warning: time.step is {dt / shortest.seconds:.3g} times the {binding}: the run "
+                "may blow up; `step: auto` chooses a stable one"
             )
-        method, isolated = self.scene.method, self.scene.method.transfer_class.isolated_limit
-        if self.given is None and isolated(method.basis_class, self.half_width) is None:
+        if self.given is None and self.isolated is None:
             lines.append(
-                f"the {method.basis} basis has no limit above zero for a lone particle: auto takes "
-                "that of a filled body"
+                f"the {self.scene.method.basis} basis has no limit above zero for a lone particle: "
+                "auto takes that of a filled body"
             )
         return lines
-
-    def state(self) -> dict[str, Any]:
-        """What the steps to come depend on, and what is told of those taken."""
-        return {name: getattr(self, name) for name in KEPT}
-
-    def restore(self, state: dict[str, Any]) -> None:
-        for name in KEPT:
-            setattr(self, name, state[name])
-
-    def note(self, dt: float, limit: Limit) -> None:
-        """Remember a step that was taken, and whether, being given, it exceeds the limit at the
-        start.  An automatic one obeys the limits of its own moment."""
-        self.shortest, self.longest = min(self.shortest, dt), max(self.longest, dt)
-        self.too_long += int(self.given is not None and dt > limit.seconds)

@@ -69,13 +69,13 @@ def _vector(numbers) -> str:
 def write_trouble(attempts, failure) -> str:
     """Leave what tells of the trouble in the folder of the run; returns words that say so."""
     simulation, folder = attempts.simulation, attempts.folder / "trouble"
-    limits = simulation.time_step.limits(simulation.start_speed)
+    limits = simulation.time_step.limits(simulation.time_step.motion)
     content = {
         "error": str(failure),
         "time": simulation.time,
         "step": simulation.step_count,
         "time_step": simulation.last_dt,
-        "limits_at_start": [limit._asdict() for limit in limits],
+        "limits": [limit._asdict() for limit in limits],
         "from": None,
         "steps_shortened_to": attempts.reduction,
         "failures": attempts.failures,

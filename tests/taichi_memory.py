@@ -15,11 +15,11 @@ def _remembered(place_of):
     known = {}
 
     @functools.wraps(place_of)
-    def place(context, node):
+    def place(self, node):
         at = node.lineno, node.end_lineno, node.col_offset, node.end_col_offset
-        key = context.func.func, type(node), at
+        key = self.func.func, type(node), at
         if key not in known:
-            known[key] = place_of(context, node)
+            known[key] = place_of(self, node)
         return known[key]
 
     return place

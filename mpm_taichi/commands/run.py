@@ -18,6 +18,10 @@ def add(parser) -> None:
         "--force", action="store_true",
         help="go on also where scene, version or precision are others",
     )  # fmt: skip
+    parser.add_argument(
+        "--strict", action="store_true",
+        help="exit code 1 where a line of the audit fails; the results are kept",
+    )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="print run.json to stdout")
 
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ..errors import InputError
-from ..recorders.paraview import Series, particle_columns
+from ..recorders.paraview import Series, particle_columns, visible
 from ..recording import Recording
 from ..vtk_files import write_vtp
 
@@ -20,8 +20,9 @@ def export_vtk(run: Path, overwrite: bool) -> None:
         series = Series(folder, "particles", ".vtp")
         series.begin([])
         for frame in recording:
-            columns = particle_columns(recording.body, frame, frame.scalars)
-            write_vtp(series.next_path, frame.time, frame.position, columns)
+            there = visible(frame.position)
+            columns = particle_columns(there, recording.body, frame, frame.scalars)
+            write_vtp(series.next_path, frame.time, frame.position[there], columns)
             series.add(frame.time)
     except OSError as error:
         raise InputError(f"{folder}: cannot be written: {error}") from None

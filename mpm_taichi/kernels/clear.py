@@ -10,7 +10,7 @@ from .blocks import active_blocks, first_active_node, first_block
 @ti.func
 def clear_node(i, grid: Template):
     grid.node[i] = ti.Vector.zero(float, 4)
-    if ti.static(grid.increment):
+    if ti.static(len(grid.records) > 1):
         grid.node[i + grid.apart] = ti.Vector.zero(float, 4)
 
 
@@ -28,6 +28,7 @@ def clear_share(grid: Template, worker, workers):
 @ti.kernel
 def clear_nodes(grid: Template, workers: int):
     grid.speed_squared[None] = 0.0
+    grid.rate_squared[None] = 0.0
     for counter in range(grid.gate * workers):
         if counter % grid.gate == 0:
             clear_share(grid, counter // grid.gate, workers)
@@ -35,5 +36,6 @@ def clear_nodes(grid: Template, workers: int):
 
 @stage
 def clear(grid):
-    """On return every node that a particle can reach is zero."""
+    """On return every node that a particle can reach is zero, and so are the largest speed and
+    rate."""
     clear_nodes(grid, grid.node_workers)

@@ -9,7 +9,7 @@ from .update_stress import load_state, store_state
 
 @ti.kernel
 def follow_each(law: Template, material: int, dim: Template, rates: Array, dt: float, table: Array):
-    """Row n, p of the table: H, tau, psi, lost energy, J, plastic strain, tau_zz."""
+    """Row n, p of the table: H, tau, psi, lost energy, J, plastic strain, both moduli, tau_zz."""
     for p in range(rates.shape[1]):
         c, H, s = law.constants[material], ti.Matrix.zero(float, dim, dim), load_state(law, p)
         for n in range(rates.shape[0]):
@@ -26,21 +26,24 @@ def follow_each(law: Template, material: int, dim: Template, rates: Array, dt: f
             table[n, p, last + 1] = law.kind.dissipated_energy(c, H, s)
             table[n, p, last + 2] = law.kind.volume_ratio(c, H, s)
             table[n, p, last + 3] = law.kind.plastic_strain(c, H, s)
+            wave, lone = law.kind.moduli(c, H, s)
+            table[n, p, last + 4], table[n, p, last + 5] = wave, lone
             if ti.static(dim == 2):
-                table[n, p, last + 4] = law.kind.out_of_plane_stress(c, H, s)
+                table[n, p, last + 6] = law.kind.out_of_plane_stress(c, H, s)
         store_state(law, p, s)
 
 
 def follow(group, rates, dt):
     """Particles that start as the group does, whose law is its own, through velocity gradients
     `rates` [steps, n, dim, dim] (1/s), each for dt [s].  After each step, [steps, n, ...]: H, tau
-    [Pa], psi (stored) and lost energy per reference volume [J/m^3], J, plastic_strain and, in plane
-    strain, tau_zz [Pa].  On return the law holds the last history."""
+    [Pa], psi (stored) and lost energy per reference volume [J/m^3], J, plastic_strain, the moduli
+    `wave` and `lone` [Pa] and, in plane strain, tau_zz [Pa].  On return the law holds the
+    last history."""
     steps, n, dim = rates.shape[:3]
-    table = np.zeros((steps, n, 2 * dim**2 + 5), rates.dtype)
+    table = np.zeros((steps, n, 2 * dim**2 + 7), rates.dtype)
     follow_each(group.law, group.number, dim, rates, dt, table)
     table, shape = table.astype(float), (steps, n, dim, dim)
-    names = "psi", "lost", "J", "plastic_strain", "tau_zz"
-    scalars = {name: table[..., k - 5] for k, name in enumerate(names)}
-    H, tau = table[..., : dim**2].reshape(shape), table[..., dim**2 : -5].reshape(shape)
+    names = "psi", "lost", "J", "plastic_strain", "wave", "lone", "tau_zz"
+    scalars = {name: table[..., k - 7] for k, name in enumerate(names)}
+    H, tau = table[..., : dim**2].reshape(shape), table[..., dim**2 : -7].reshape(shape)
     return {"H": H, "tau": tau, **scalars}

@@ -6,6 +6,7 @@ from ..runtime import Template
 from ..stages import stage
 from .blocks import blocks_of, first_block
 from .stencil import index, line_slope, line_weight, offset, weigh
+from .tally import NoTally, gathered, note_particles
 
 
 @ti.func
@@ -70,33 +71,44 @@ def gather_particle(
 @ti.func
 def gather_share(
     particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
-    worker, workers,
+    dt, tally: Template, worker, workers,
 ):  # fmt: skip
     blocks = blocks_of(particles.count, grid.block)
     for block in range(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = block * grid.block
-        for p in range(first, ti.min(first + grid.block, particles.count)):
-            gather_particle(p, particles, grid, basis, transfer, what)
+        end = ti.min(first + grid.block, particles.count)
+        if ti.static(tally.has_particles):
+            found = ti.Vector.zero(tally.real, tally.particles.count)
+            for p in range(first, end):
+                gather_particle(p, particles, grid, basis, transfer, what)
+                found += gathered(p, particles, grid, basis, transfer, dt, tally)
+            note_particles(found, tally, block)
+        else:
+            for p in range(first, end):
+                gather_particle(p, particles, grid, basis, transfer, what)
 
 
 @ti.kernel
 def gather_particles(
     particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
-    workers: int,
+    dt: float, tally: Template, workers: int,
 ):  # fmt: skip
     for counter in range(grid.gate * workers):
         if counter % grid.gate == 0:
-            gather_share(particles, grid, basis, transfer, what, counter // grid.gate, workers)
+            gather_share(
+                particles, grid, basis, transfer, what, dt, tally, counter // grid.gate, workers
+            )
 
 
 @stage
-def g2p(particles, grid, basis, transfer, what="all"):
+def g2p(particles, grid, basis, transfer, what="all", dt=0.0, tally=NoTally):
     """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
     with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all"
     or for the "gradient" S_p; or it is the "residual" of a filter, R_p -= sum_i w_ip R_i.
 
     On return the rows hold what was gathered (see kernels/rows.py); x, H and the state are as
-    before."""
-    gather_particles(particles, grid, basis, transfer, what, grid.workers(particles.count))
+    before; a `tally` has noted energy and supplies of the step, which is dt [s] long."""
+    workers = grid.workers(particles.count)
+    gather_particles(particles, grid, basis, transfer, what, dt, tally, workers)

@@ -80,6 +80,11 @@ def scatter_particle(
                 q -= A[d] * a[d]
         if ti.static(not transfer.increment):
             scatter(first, grid, w, dw, q + force, A, T)
+            if ti.static(what == "all" and grid.audited):
+                S = [particles.rows[p, row] for row in particles.layout.impulse]
+                for d in ti.static(range(len(S))):
+                    force -= S[d] * a[d]
+                scatter(first + grid.apart, grid, w, dw, force, S, T)
         else:
             scatter(first, grid, w, dw, q, A, [])
             if ti.static(what == "all"):
@@ -123,7 +128,7 @@ def p2g(particles, grid, basis, transfer, what="all"):
     for mass and "momentum"; or it is the "residual" of a filter, sum_p w_ip m_p R_p.
 
     On return a node holds (momentum and impulse [kg m/s], mass [kg]); with `transfer.increment` the
-    impulse is in the record apart, and so is the residual."""
+    impulse is in the record apart, and so is the residual; if `grid.audited` a copy of it is."""
     workers = grid.workers(particles.count)
     for color in range(1 if grid.atomic else 2):
         scatter_particles(particles, grid, basis, transfer, what, color, workers)

@@ -9,7 +9,8 @@ Lengths in rows are in cells.  Row 0 and the rows of the layout change meaning t
 
 Where D varies, D^-1 is left to the scatter, which has the D of its own place: so angular momentum
 is kept (Jiang et al. 2015).  `layout.residual` holds (m R, 0) of a filtered transfer and
-`layout.force` the impulse (dt m b, 0) of a body force.
+`layout.force` the impulse (dt m b, 0) of a body force.  For an audit `layout.stress` holds the
+columns of T / dt, or the `layout.impulse`, those of D^-1 T dx, where that is a part of A.
 """
 
 import taichi as ti
@@ -19,9 +20,9 @@ from ..runtime import Template
 
 class RowLayout:
     """Which rows a transfer has, in `dim` dimensions; `keeps_pic`: sum_i w_i v_i outlives the new
-    velocity, `force`: there is a body force."""
+    velocity, `force`: there is a body force, `audited`: the stress is kept."""
 
-    def __init__(self, transfer, dim: int, keeps_pic: bool, force: bool):
+    def __init__(self, transfer, dim: int, keeps_pic: bool, force: bool, audited: bool = False):
         affine, gradient = dim * transfer.affine, dim * transfer.gradient
         self.affine = range(1, 1 + affine)
         self.moments = self.affine if transfer.moments else range(0)
@@ -30,6 +31,9 @@ class RowLayout:
         self.pic = self._one_more(transfer.increment or keeps_pic)
         self.residual = self._one_more(transfer.filtered)
         self.force = self._one_more(force)
+        self.stress = range(self.count, self.count + dim * audited)
+        self.count += len(self.stress)
+        self.impulse = range(0) if transfer.gradient else self.stress
 
     def _one_more(self, wanted: bool) -> int:
         """The number of the next row, 0 if there is none."""

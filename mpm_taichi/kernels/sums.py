@@ -8,13 +8,11 @@ from ..runtime import Array, Template, widest_float
 from .blocks import first_block
 from .rows import columns, vector
 from .stencil import moment, weigh
+from .tally import TURNS
 from .update_stress import load_state
 
 MOST_BLOCKS = {"cpu": 128, "gpu": 2048}
 """A block has a row for each body, so that a scene of hundreds of bodies still takes megabytes."""
-
-TURNS = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
-"""The plane of each component of an angular momentum."""
 
 
 @ti.func

@@ -4,19 +4,32 @@ in the same numbers, in f64 whatever the precision of the run."""
 import taichi as ti
 
 from ..runtime import Template
+from ..time_step import HUGE, Pace
+
+LONGEST, SAFETY, ACOUSTIC, WAVE_SPEED, CONSTANT, TRAVEL, DEFORMATION, GROWTH = range(
+    len(Pace._fields)
+)
 
 
 @ti.func
-def longest_step(pace: Template, speed, last):
-    """The longest step [s] that may be taken at the largest nodal speed [m/s]."""
-    p = pace[None]
-    length = p.given
-    if length == 0.0:
-        allowed = ti.min(p.acoustic / (p.wave_speed + speed), p.constant)
-        if speed > 0.0:
-            allowed = ti.min(allowed, p.travel / speed)
-        length = ti.min(p.safety * allowed, p.growth * last)
-    return length
+def longest_step(pace: Template, speed, rate, last):
+    """As Pace.step: the longest step [s], and which of BOUNDS it is."""
+    still = ti.cast(1 / HUGE, ti.f64)
+    length, bound = pace[LONGEST], 0
+    for k, allowed in ti.static(
+        enumerate(
+            [
+                pace[GROWTH] * last,
+                pace[SAFETY] * pace[ACOUSTIC] / ti.max(pace[WAVE_SPEED] + speed, still),
+                pace[SAFETY] * pace[CONSTANT],
+                pace[SAFETY] * pace[TRAVEL] / ti.max(speed, still),
+                pace[SAFETY] * pace[DEFORMATION] / ti.max(rate, still),
+            ]
+        )
+    ):
+        if allowed < length:
+            length, bound = allowed, k + 1
+    return length, bound
 
 
 @ti.func

@@ -7,6 +7,7 @@ from ..runtime import Template
 from ..stages import stage
 from .blocks import blocks_of, first_block
 from .rows import columns, put_columns, put_vector, vector
+from .tally import NoTally, note_stress
 
 
 @ti.func
@@ -36,8 +37,9 @@ def note_if_lost(p, x, particles: Template, grid: Template):
 @ti.func
 def update_particle(
     p, particles: Template, law: Template, material, grid: Template, transfer: Template,
-    dt, dt_next, alpha, velocity: Template, stress: Template, move: Template,
+    dt, dt_next, alpha, velocity: Template, stress: Template, move: Template, tally: Template, row,
 ):  # fmt: skip
+    """Returns |v_pic|^2 and |L|^2, the sum of squares."""
     dim = ti.static(grid.dim)
     g = grid.constants[None]
     m = particles.m[p]
@@ -57,6 +59,8 @@ def update_particle(
         particles.H[p] = H_new
         store_state(law, p, s)
         T = (-dt_next * particles.V0[p]) * tau
+        if ti.static(tally.is_on):
+            note_stress(p, L, particles.V0[p] * tau, dt, dt_next, particles, grid, tally, row)
     if ti.static(velocity):
         put_vector(particles.rows, p, 0, m * v, m)
         if ti.static(transfer.affine):
@@ -69,52 +73,65 @@ def update_particle(
         x = particles.x[p] + dt * v_pic
         particles.x[p] = x
         note_if_lost(p, x, particles, grid)
+    return v_pic.norm_sqr(), L.norm_sqr()
 
 
 @ti.func
 def stress_share(
     particles: Template, law: Template, material, grid: Template, transfer: Template,
     begin, end, dt, dt_next, alpha,
-    velocity: Template, stress: Template, move: Template, worker, workers,
+    velocity: Template, stress: Template, move: Template, tally: Template, worker, workers,
 ):  # fmt: skip
     blocks = blocks_of(end - begin, grid.block)
+    fastest, steepest = 0.0, 0.0
+    row = begin // grid.block + law.first + material  # of the tally: none is another material's
     for block in range(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = begin + block * grid.block
         for p in range(first, ti.min(first + grid.block, end)):
-            update_particle(
+            speed_squared, rate_squared = update_particle(
                 p, particles, law, material, grid, transfer, dt, dt_next, alpha,
-                velocity, stress, move,
+                velocity, stress, move, tally, row + block,
             )  # fmt: skip
+            if ti.static(move):  # ti.max would spoil the packing of lanes
+                if speed_squared > fastest:
+                    fastest = speed_squared
+                if rate_squared > steepest:
+                    steepest = rate_squared
+    if ti.static(move):
+        ti.atomic_max(grid.speed_squared[None], fastest)
+        ti.atomic_max(grid.rate_squared[None], steepest)
 
 
 @ti.kernel
 def update_particles(
     particles: Template, law: Template, material: int, grid: Template, transfer: Template,
     begin: int, end: int, dt: float, dt_next: float, alpha: float,
-    velocity: Template, stress: Template, move: Template, workers: int,
+    velocity: Template, stress: Template, move: Template, tally: Template, workers: int,
 ):  # fmt: skip
     for counter in range(grid.gate * workers):
         if counter % grid.gate == 0:
             stress_share(
                 particles, law, material, grid, transfer, begin, end, dt, dt_next, alpha,
-                velocity, stress, move, counter // grid.gate, workers,
+                velocity, stress, move, tally, counter // grid.gate, workers,
             )  # fmt: skip
 
 
 @stage
 def update_stress(
-    particles, group, grid, transfer, dt, dt_next, alpha=1.0, velocity=True, stress=True, move=True
-):
+    particles, group, grid, transfer, dt, dt_next, alpha=1.0, velocity=True, stress=True, move=True,
+    tally=NoTally,
+):  # fmt: skip
     """Velocity and affine momentum from what was gathered, alpha being the FLIP part of a blend;
     H <- H + dt L (I + H), stress and state by the law; x <- x + dt sum_i w_ip v_i.  Stress orders
     other than USL ask for these at different times.
 
     On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
-    has left the closed domain, or the number of particles."""
+    has left the closed domain, or the number of particles; and once particles have moved the grid
+    has the largest |sum_i w_ip v_i|^2 and |L|^2 of this step."""
     update_particles(
         particles, group.law, group.number, grid, transfer, group.begin, group.end,
-        dt, dt_next, alpha, velocity, stress, move, grid.workers(group.end - group.begin),
+        dt, dt_next, alpha, velocity, stress, move, tally, grid.workers(group.end - group.begin),
     )  # fmt: skip

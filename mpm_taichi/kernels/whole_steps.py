@@ -5,6 +5,7 @@ all the work of a thousand particles.  Here the stages follow each other without
 in the order of `Solver.step` for USL, and the device chooses the length of the next step."""
 
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 import taichi as ti
@@ -18,27 +19,35 @@ from .g2p import gather_share
 from .ghosts import exchange_share
 from .grid_update import update_share
 from .p2g import scatter_share
+from .tally import NoTally, note_share
 from .time_step import even_step, longest_step
 from .update_stress import stress_share
 
-TIME, DT, TARGET, AFTER, LAST, DRIFT, TAKEN, ON, GOOD = range(9)
+TIME, DT, TARGET, AFTER, LAST, SPEED, RATE, DRIFT, LEFT, TAKEN, ON, GOOD = range(12)
 
 
 @dataclass
 class Clock:
     """Where a run is, and how far it may go: `time` [s], the length `dt` [s] of the next step, the
     longest that the rule allowed `last`; `target` and `after`, the times of the next two outputs
-    (after: 0 if there is none); the `drift` [cells] of particles since they were sorted.
+    (after: 0 if there is none); the largest `speed` [m/s] and `rate` [1/s] of the last step; the
+    `drift` [cells] of particles since they were sorted, and the `strain_left` to them until their
+    stiffness has to be seen.
 
-    `lengths` [s] are those of the steps taken; `is_good`: the next is a number, not too short."""
+    `lengths` [s] are those of the steps taken, `bounds` (of mpm_taichi/time_step.py) what bound the
+    one after each; `is_good`: the next is a number, not too short."""
 
     time: float
     dt: float
     target: float
     after: float
     last: float
+    speed: float
+    rate: float
     drift: float
+    strain_left: float = inf
     lengths: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    bounds: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
     is_good: bool = True
 
 
@@ -66,36 +75,50 @@ def exchange(
 
 
 @ti.func
+def note(grid: Template, gravity: Template, dt, alpha, tally: Template, when: Template):
+    if ti.static(tally.has_walls and (when != "kept" or tally.lets_go)):
+        note_share(grid, gravity, dt, alpha, tally, when, 0, 1)
+
+
+@ti.func
 def take_step(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, pace: Template, clock: Template,
+    gravity: Template, body_force: Template, flip: Template, pace: Template, tally: Template,
+    clock: Template,
 ):  # fmt: skip
+    """Returns which of BOUNDS binds the next step."""
     time, dt, landing = clock[TIME], clock[DT], clock[TIME] + 1.5 * clock[DT] > clock[TARGET]
     h = ti.cast(dt, float)
+    alpha = ti.cast(flip[0] * ti.exp(-flip[1] * dt), float)
     if ti.static(particles.layout.force):
         push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
-    grid.speed_squared[None] = 0.0
+    grid.speed_squared[None], grid.rate_squared[None] = 0.0, 0.0
     clear_share(grid, 0, 1)
     for color in range(2):
         scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
+    note(grid, gravity, h, alpha, tally, "given")
     exchange(grid, walls, gravity, h, False, False)
-    update_share(grid, walls, gravity, h, 0, 1)
+    update_share(grid, walls, gravity, h, tally, 0, 1)
+    note(grid, gravity, h, alpha, tally, "kept")
     exchange(grid, walls, gravity, 0.0, True, True)
-    gather_share(particles, grid, basis, transfer, "all", 0, 1)
-    speed = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
-    longest = longest_step(pace, speed, clock[LAST])
+    note(grid, gravity, h, alpha, tally, "taken")
+    gather_share(particles, grid, basis, transfer, "all", h, tally, 0, 1)
+    longest, bound = longest_step(pace, clock[SPEED], clock[RATE], clock[LAST])
     end = clock[TARGET] if landing else time + dt
     goal = clock[AFTER] if landing else clock[TARGET]
     dt_next = even_step(goal - end, longest) if goal > 0.0 else longest
-    alpha = ti.cast(pace[None].flip_ratio * ti.exp(-pace[None].flip_rate * dt), float)
     for law in ti.static(particles.laws):
         for material in range(law.constants.shape[0]):
             stress_share(
                 particles, law, material, grid, transfer, law.ends[material],
-                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, 0, 1,
+                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, tally,
+                0, 1,
             )  # fmt: skip
     clock[TIME], clock[DT], clock[LAST] = end, dt_next, longest
-    clock[DRIFT] += dt * speed * grid.constants[None].inv_dx
+    clock[SPEED] = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
+    clock[RATE] = ti.sqrt(ti.cast(grid.rate_squared[None], ti.f64))
+    clock[DRIFT] += dt * clock[SPEED] * grid.constants[None].inv_dx
+    clock[LEFT] -= dt * clock[RATE]
     clock[GOOD] = 0.0
     if goal == 0.0 or goal - end < float(MOST) * longest:
         clock[GOOD] = 1.0
@@ -103,38 +126,49 @@ def take_step(
         landing
         or clock[GOOD] == 0.0
         or clock[DRIFT] >= 0.99
+        or clock[LEFT] <= 0.0
         or particles.lost[None] < particles.count
     ):
         clock[ON] = 0.0
+    return bound
 
 
 @ti.kernel
 def take_steps(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, pace: Template, most: int, clock: Array,
-    lengths: Array,
+    gravity: Template, body_force: Template, flip: Array, pace: Array, tally: Template, most: int,
+    clock: Array, lengths: Array, bounds: Array,
 ):  # fmt: skip
     ti.loop_config(serialize=True)
     for n in range(most):
         if clock[ON] > 0.0:
             lengths[n] = clock[DT]
             clock[TAKEN] = n + 1
-            take_step(
-                particles, grid, basis, transfer, walls, gravity, body_force, pace, clock
+            bounds[n] = take_step(
+                particles, grid, basis, transfer, walls, gravity, body_force, flip, pace, tally,
+                clock,
             )  # fmt: skip
 
 
 @stage
-def whole_steps(particles, grid, basis, transfer, walls, gravity, body_force, pace, clock, most):
-    """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
-    is lost or the next step is no number.  On return the clock says how far that was."""
+def whole_steps(
+    particles, grid, basis, transfer, walls, gravity, body_force, flip_part, pace, clock, most,
+    tally=NoTally,
+):  # fmt: skip
+    """Up to `most` steps from `clock`, fewer where an output is reached, a sort or a look at the
+    stiffness is due, a particle is lost or the next step is no number.  On return the clock says
+    how far that was."""
     numbers = np.array([
-        clock.time, clock.dt, clock.target, clock.after, clock.last, clock.drift, 0, 1, 1,
+        clock.time, clock.dt, clock.target, clock.after, clock.last, clock.speed, clock.rate,
+        clock.drift, clock.strain_left, 0, 1, 1,
     ])  # fmt: skip
-    lengths = np.zeros(most)
+    lengths, bounds = np.zeros(most), np.zeros(most, np.int32)
     take_steps(
-        particles, grid, basis, transfer, walls, gravity, body_force, pace, most, numbers, lengths
-    )
-    clock.time, clock.dt, clock.last, clock.drift = map(float, numbers[[TIME, DT, LAST, DRIFT]])
-    clock.is_good = bool(numbers[GOOD])
-    clock.lengths = lengths[: int(numbers[TAKEN])]
+        particles, grid, basis, transfer, walls, gravity, body_force, np.array(flip_part, float),
+        np.array(pace, float), tally, most, numbers, lengths, bounds,
+    )  # fmt: skip
+    clock.time, clock.dt, clock.last = map(float, numbers[[TIME, DT, LAST]])
+    clock.speed, clock.rate = map(float, numbers[[SPEED, RATE]])
+    clock.drift, clock.strain_left = map(float, numbers[[DRIFT, LEFT]])
+    clock.is_good, taken = bool(numbers[GOOD]), int(numbers[TAKEN])
+    clock.lengths, clock.bounds = lengths[:taken], bounds[:taken]

@@ -9,9 +9,14 @@ A material is a frozen model (what a scene gives, with units) and device functio
 - `wave_speed()`          of pressure waves in the undeformed material [m/s]
 - `dilatation_modulus(dim)`  M_d = dim lam + 2 mu [Pa], of a lone particle's time-step limit
 - `shear_viscosity()`     eta [Pa s]
+- `stiffening(dim)`       by what part its moduli may grow per strain
 - `update(c, H, L, dt, s)`  -> H, s, tau [Pa], with H = F - I already advanced by dt, L the velocity
   gradient [1/s] and s the state; a law that flows returns the H of what is stored elastically.
   With L = 0 and dt = 0 it only evaluates the stress
+- `moduli(c, H, s)`  -> upper bounds of what its stiffness is now [Pa]: of rho0 c^2, c the speed of
+  waves in all directions, and of M_d, the largest tau : L per |L|^2 that a small strain of rate L
+  adds in unit time.  At rest those of `wave_speed` and `dilatation_modulus`, of sand
+  and of gas with artificial viscosity a little more
 - `energy_density(c, H, s)`  stored energy per reference volume [J/m^3]
 - `dissipated_energy(c, H, s)`  per reference volume, since the start [J/m^3]
 - `volume_ratio(c, H, s)`  J, volume by volume at the start [-]

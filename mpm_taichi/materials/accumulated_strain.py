@@ -1,5 +1,6 @@
 """Hooke's law on small strain that is added up step by step: what linear laws share."""
 
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,15 @@ class AccumulatedStrain(Elastic):
     @ti.func
     def kirchhoff_stress(c, H, s):
         return (1.0 + volume_strain(H)) * AccumulatedStrain.cauchy_stress(c, s.strain)
+
+    @staticmethod
+    @ti.func
+    def moduli(c, H, s):
+        """Those of small strain and the stress itself, which turns with a body or does not."""
+        J, tau = 1.0 + volume_strain(H), AccumulatedStrain.kirchhoff_stress(c, H, s)
+        size = ti.sqrt(tau.norm_sqr())
+        wave, lone = c.lam + 2.0 * c.mu, H.n * ti.max(c.lam, 0.0) + 2.0 * c.mu
+        return J * wave + size, J * lone + ti.static(sqrt(H.n)) * size
 
     @staticmethod
     @ti.func

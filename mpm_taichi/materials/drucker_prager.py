@@ -81,7 +81,9 @@ class DruckerPrager(Flowing):
                 part = largest / size
             s.plastic_strain += ti.static(sqrt(2 / 3)) * (1.0 - part) * size
         if flows:
-            s.dissipated += Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
+            # What flows does so under the stress that is left, not under that of the trial.
+            s.dissipated += 2.0 * c.mu * part * (1.0 - part) * size * size
+            s.dissipated += (c.lam + 2.0 / 3.0 * c.mu) * volume * (trial - volume)
             swelling = (volume - trial) / 3.0
             change = (part - 1.0) * D
             for d in ti.static(range(H.n)):
@@ -89,6 +91,15 @@ class DruckerPrager(Flowing):
             H, s = Flowing.flowed(H, s, change, (part - 1.0) * D_zz + swelling)
             e += change
         return H, s, Hencky.stress(c, e, volume)
+
+    @staticmethod
+    @ti.func
+    def moduli(c, H, s):
+        """Flow without dilation is stiffer than no flow where sand expands and is sheared back:
+        volume v and shear q along dev tau give A K v q instead of 2 mu q^2."""
+        wave, lone = Flowing.moduli(c, H, s)
+        extra = (c.slope * (c.lam + 2.0 / 3.0 * c.mu)) ** 2 / (8.0 * c.mu)
+        return wave + extra, lone + H.n * extra
 
     @staticmethod
     @ti.func

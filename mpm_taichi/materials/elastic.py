@@ -25,6 +25,7 @@ class Elastic(MaterialLaw):
         return sqrt((c["lam"] + 2 * c["mu"]) / self.density)
 
     def dilatation_modulus(self, dim: int) -> float:
-        """M_d = dim lam + 2 mu [Pa]: stiffness against the strain that a lone particle feels."""
+        """M_d = dim lam + 2 mu [Pa]: stiffness against the strain that a lone particle feels.
+        Where lam < 0 it feels shear more."""
         c = self.constants(1.0)
-        return dim * c["lam"] + 2 * c["mu"]
+        return dim * max(c["lam"], 0.0) + 2 * c["mu"]

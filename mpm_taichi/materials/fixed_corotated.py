@@ -6,7 +6,7 @@ from typing import Literal
 import taichi as ti
 
 from .elastic import Elastic
-from .invariants import volume_strain
+from .invariants import squared_stretches, volume_strain
 from .polar import rotation
 
 
@@ -32,6 +32,16 @@ class FixedCorotated(Elastic):
             for e in ti.static(range(d)):
                 tau[d, e] = tau[e, d]  # symmetric to the last bit, and three sums are spared
         return H, s, tau
+
+    @staticmethod
+    @ti.func
+    def moduli(c, H, s):
+        """Along the wave rho0 c^2 = 2 mu s^2 + lam J^2, across it less; softer where J is small."""
+        _least, most = squared_stretches(H)
+        stretch, J, lam = ti.sqrt(most), 1.0 + volume_strain(H), ti.max(c.lam, 0.0)
+        wave = c.mu * ti.max(2.0 * most, stretch) + lam * J * J
+        lone = 2.0 * c.mu * ti.max(2.0 * most - stretch, 0.0)
+        return wave, lone + H.n * lam * ti.max(J * (2.0 * J - 1.0), 0.0)
 
     @staticmethod
     @ti.func

@@ -55,6 +55,15 @@ class Flowing(Elastic):
 
     @staticmethod
     @ti.func
+    def moduli(c, H, s):
+        """Of the elastic part: flow is softer."""
+        volume = log_volume_ratio(volume_strain(H))
+        if ti.static(H.n == 2):
+            volume += s.strain_across
+        return Hencky.moduli_at(c, H, volume)
+
+    @staticmethod
+    @ti.func
     def energy_density(c, H, s):
         e, e_zz, volume = Flowing.strain(H, s)
         _e, _e_zz, size = Flowing.deviator(e, e_zz, volume)

@@ -55,6 +55,10 @@ class Fluid(MaterialLaw):
     def dilatation_modulus(self, dim: int) -> float:
         return dim * self.bulk_modulus
 
+    def stiffening(self, dim: int) -> float:
+        """As J^(1 - gamma)."""
+        return max((self.exponent - 1) * sqrt(dim), super().stiffening(dim))
+
     def shear_viscosity(self) -> float:
         return self.viscosity
 
@@ -84,6 +88,15 @@ class Fluid(MaterialLaw):
         for d in ti.static(range(H.n)):
             tau[d, d] -= (1.0 + strain) * Fluid.pressure(c, strain)
         return isotropic(H, strain), s, tau
+
+    @staticmethod
+    @ti.func
+    def moduli(c, H, s):
+        """rho0 c^2 = K J^(1 - gamma); for a lone particle the pressure comes off, J p per axis."""
+        strain = volume_strain(H)
+        power = 1.0 + exp_less_one((1.0 - c.exponent) * log_volume_ratio(strain))
+        pressure = (power - 1.0 - strain) / c.exponent
+        return c.bulk_modulus * power, H.n * c.bulk_modulus * (power - pressure)
 
     @staticmethod
     @ti.func

@@ -74,6 +74,16 @@ class Gas(MaterialLaw):
 
     @staticmethod
     @ti.func
+    def moduli(c, H, s):
+        """rho0 c^2 = gamma (gamma - 1) U, and as much more as the linear artificial viscosity makes
+        an explicit step shorter: c -> c (c1 + sqrt(1 + c1^2)) (LS-DYNA theory manual, time step
+        of solids); the quadratic one is below it wherever dt |grad v| is."""
+        elastic = c.heat_ratio * (c.heat_ratio - 1.0) * s.energy
+        faster = c.linear + ti.sqrt(1.0 + c.linear * c.linear)
+        return faster * faster * elastic, H.n * elastic
+
+    @staticmethod
+    @ti.func
     def energy_density(c, H, s):
         return s.energy
 

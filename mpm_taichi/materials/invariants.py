@@ -21,6 +21,24 @@ def volume_strain(H):
 
 
 @ti.func
+def squared_stretches(H):
+    """A lower and an upper bound of the principal values of b = F F^T, exact in 2D and where they
+    are equal: mean -+ sqrt((n - 1) / n) |dev b| (Samuelson 1968), and (J / other values)^2."""
+    n = ti.static(H.n)
+    A = left_strain(H)
+    mean = A.trace() / n
+    for d in ti.static(range(n)):
+        A[d, d] -= mean
+    spread = ti.sqrt(ti.static((n - 1) / n) * A.norm_sqr())
+    J, most = 1.0 + volume_strain(H), 1.0 + mean + spread
+    least = J * J / most
+    if ti.static(n == 3):
+        others = 1.5 * (1.0 + mean)  # of two values the product is at most the mean squared
+        least = ti.max(1.0 + mean - spread, (J / others) ** 2)
+    return least, most
+
+
+@ti.func
 def log_volume_ratio(strain):
     """ln(1 + strain), to round-off of the result also where strain is small; NaN from -1
     down.

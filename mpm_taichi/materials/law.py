@@ -1,5 +1,6 @@
 """What all laws have: a density, a history, and answers that most laws share."""
 
+from math import sqrt
 from typing import Any, ClassVar
 
 import numpy as np
@@ -30,6 +31,10 @@ class MaterialLaw(Model):
             name: np.broadcast_to(value, (len(H), *np.shape(value))).astype(float)
             for name, value in self.state(H.shape[1]).items()
         }
+
+    def stiffening(self, dim: int) -> float:
+        """By what part its moduli may grow per strain (Frobenius norm): here as J^2 does."""
+        return 2 * sqrt(dim)
 
     def shear_viscosity(self) -> float:
         """eta [Pa s], which limits the time step."""

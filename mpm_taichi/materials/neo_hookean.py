@@ -5,7 +5,7 @@ from typing import Literal
 import taichi as ti
 
 from .elastic import Elastic
-from .invariants import left_strain, log_volume_ratio, volume_strain
+from .invariants import left_strain, log_volume_ratio, squared_stretches, volume_strain
 
 
 class NeoHookean(Elastic):
@@ -23,6 +23,15 @@ class NeoHookean(Elastic):
         for d in ti.static(range(H.n)):
             tau[d, d] += pressure
         return H, s, tau
+
+    @staticmethod
+    @ti.func
+    def moduli(c, H, s):
+        """rho0 c^2 = mu s^2 + mu + lam (1 - ln J), s the stretch along the wave; ln J is at
+        least 1 - 1/J."""
+        _least, most = squared_stretches(H)
+        along = c.mu + ti.max(c.lam, c.lam / (1.0 + volume_strain(H)))
+        return along + c.mu * most, H.n * ti.max(c.lam, 0.0) + 2.0 * c.mu * most
 
     @staticmethod
     @ti.func

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from ..model import Positive
 from .elastic import Elastic
+from .fixed_corotated import FixedCorotated
 from .invariants import exp_less_one, left_strain, volume_strain
 from .symmetric import SMALL, assembled, eigen, is_above, of_square_root, powers
 
@@ -19,8 +20,8 @@ class Snow(Elastic):
 
     The clamps are no flow along a potential: where a stretch is clamped under pressure from the
     sides, they give back a little energy.  In plane strain the stretch across the plane is 1,
-    within the limits: no history.  Hardening is capped, as the time step has to be stable for the
-    hardest snow; a cap that acts is counted."""
+    within the limits: no history.  Hardening is capped, which keeps time steps from vanishing; a
+    cap that acts is counted."""
 
     counters = {"capped": "hardening of snow capped"}
 
@@ -45,12 +46,9 @@ class Snow(Elastic):
         number of steps."""
         return {"plastic_volume": 0.0, "dissipated": 0.0, "capped": 0.0}
 
-    def wave_speed(self) -> float:
-        """Of the hardest snow [m/s]."""
-        return sqrt(self.largest_hardening) * super().wave_speed()
-
-    def dilatation_modulus(self, dim: int) -> float:
-        return self.largest_hardening * super().dilatation_modulus(dim)
+    def stiffening(self, dim: int) -> float:
+        """Packed, it hardens by exp(xi) per J_P."""
+        return self.hardening * sqrt(dim) + super().stiffening(dim)
 
     @staticmethod
     @ti.func
@@ -93,6 +91,14 @@ class Snow(Elastic):
         for d in ti.static(range(H.n)):
             tau[d, d] += c.lam * strain * (1.0 + strain)
         return H, s, factor * tau
+
+    @staticmethod
+    @ti.func
+    def moduli(c, H, s):
+        """Those of fixed-corotated snow as hard as it is."""
+        factor = Snow.hardness(c, s)
+        wave, lone = FixedCorotated.moduli(c, H, s)
+        return factor * wave, factor * lone
 
     @staticmethod
     @ti.func

@@ -52,6 +52,7 @@ class History:
             # - sum m g . x, zero at the origin
             "gravitational_energy": -(sums["mass_moment"].sum(axis=0) @ self.gravity),
         }
+        row |= simulation.ledger
         with np.errstate(invalid="ignore", divide="ignore"):  # a body may be deleted: NaN
             centers = sums["mass_moment"] / mass[:, None]
             velocities = sums["momentum"] / mass[:, None]

@@ -60,21 +60,24 @@ class ParaView:
             return
         particles, *grid = self.series
         now = simulation.snapshot
+        with np.errstate(invalid="ignore"):  # of what was deleted, and is not written
+            density = now.density
         scalars = {
             "pressure": now.pressure,
             "stress": now.von_mises_stress,
-            "density": now.density,
+            "density": density,
         }
         if has_plastic_strain(simulation.scene):
             scalars["plastic_strain"] = now.plastic_strain
+        there = visible(now.visible_position)
         columns = [
-            *particle_columns(simulation.body_of_particle, now, scalars),
-            symmetric_tensor("Cauchy stress [Pa]", now.cauchy_stress),
-            tensor("deformation gradient [-]", now.deformation_gradient),
-            scalar("elastic energy density [J/m^3]", now.energy_density),
-            scalar("volume ratio [-]", now.volume_ratio),
+            *particle_columns(there, simulation.body_of_particle, now, scalars),
+            symmetric_tensor("Cauchy stress [Pa]", now.cauchy_stress[there]),
+            tensor("deformation gradient [-]", now.deformation_gradient[there]),
+            scalar("elastic energy density [J/m^3]", now.energy_density[there]),
+            scalar("volume ratio [-]", now.volume_ratio[there]),
         ]
-        write_vtp(particles.next_path, now.time, now.visible_position, columns)
+        write_vtp(particles.next_path, now.time, now.position[there], columns)
         particles.add(now.time)
         for series in grid:
             if simulation.step_count > 0:
@@ -123,14 +126,22 @@ class Series:
         return self.folder / f"{self.stem}_{number:04d}{self.suffix}"
 
 
-def particle_columns(body: np.ndarray, now, scalars: dict[str, np.ndarray]) -> list[Column]:
-    """Of a moment with velocity and mass, and `scalars` by the names of LABELS."""
+def visible(position: np.ndarray) -> slice | np.ndarray:
+    """Selects the particles that have a place, which those that were deleted do not: with such
+    ParaView would show nothing at all."""
+    gone = np.isnan(position[:, 0])
+    return ~gone if gone.any() else slice(None)
+
+
+def particle_columns(there, body: np.ndarray, now, scalars: dict[str, np.ndarray]) -> list[Column]:
+    """Of the particles `there`, at a moment with velocity and mass, and `scalars` by the names of
+    LABELS."""
     return [
-        whole("id", np.arange(len(body))),
-        whole("body", body),
-        scalar("mass [kg]", now.mass),
-        vector("velocity [m/s]", now.velocity),
-        *(scalar(label, scalars[name]) for name, label in LABELS.items() if name in scalars),
+        whole("id", np.arange(len(body))[there]),
+        whole("body", body[there]),
+        scalar("mass [kg]", now.mass[there]),
+        vector("velocity [m/s]", now.velocity[there]),
+        *(scalar(label, scalars[name][there]) for name, label in LABELS.items() if name in scalars),
     ]
 
 

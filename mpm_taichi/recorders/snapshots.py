@@ -39,8 +39,9 @@ def snapshot_bytes(scene, count: int) -> int:
 class Snapshots:
     """A file for each output: time [s], step, position [n, dim] (m), velocity [n, dim] (m/s),
     pressure, stress (von Mises) [n] (Pa), density [n] (kg/m^3) and, where a law has it, the
-    equivalent plastic_strain [n], in float32 and in the order of the scene; and once
-    particles.npz: body (index) [n], mass [n] (kg), initial_volume [n] (m^dim).
+    equivalent plastic_strain [n], in float32 and in the order of the scene, the position nan of
+    particles that were deleted; and once particles.npz: body (index) [n], mass [n] (kg),
+    initial_volume [n] (m^dim).
 
     Each file appears whole.  `mpm_taichi.recording.Recording` reads them."""
 
@@ -55,20 +56,16 @@ class Snapshots:
         for number, path in numbered(folder):
             if number >= self.count:
                 path.unlink()
-        bodies = len(simulation.scene.bodies)
-        write_arrays(
-            folder / "particles.npz",
-            body=simulation.body_of_particle.astype(np.min_scalar_type(bodies)),
-            mass=simulation.snapshot.mass.astype(np.float32),
-            initial_volume=simulation.snapshot.initial_volume.astype(np.float32),
-        )
+        if state is None:
+            self._write_particles(simulation)
 
     def record(self, simulation, is_output):
         if not is_output:
             return
         now = simulation.snapshot
         arrays = {"position": now.visible_position, "velocity": now.velocity}
-        arrays |= {name: getattr(now, source) for name, source in self.names.items()}
+        with np.errstate(invalid="ignore"):  # density of what was deleted: nan
+            arrays |= {name: getattr(now, source) for name, source in self.names.items()}
         write_arrays(
             self.folder / f"snapshot_{self.count:04d}.npz",
             time=np.float64(now.time),
@@ -76,6 +73,15 @@ class Snapshots:
             **{name: values.astype(np.float32) for name, values in arrays.items()},
         )
         self.count += 1
+
+    def _write_particles(self, simulation):
+        bodies, now = len(simulation.scene.bodies), simulation.snapshot
+        write_arrays(
+            self.folder / "particles.npz",
+            body=simulation.body_of_particle.astype(np.min_scalar_type(bodies)),
+            mass=now.mass.astype(np.float32),
+            initial_volume=now.initial_volume.astype(np.float32),
+        )
 
     def state(self) -> dict:
         return {"count": self.count}

@@ -4,7 +4,8 @@ import numpy as np
 
 
 class Grid:
-    """m [kg], mv [kg m/s], impulse [kg m/s], v_old and v [m/s] of node i at (i - ghost) dx."""
+    """m [kg], mv [kg m/s], impulse [kg m/s], v_old and v [m/s] of node i at (i - ghost) dx;
+    of an audit, the momentum without the stress in it, `given`."""
 
     def __init__(self, cells, dx, basis, mass_cutoff, walls, periodic):
         self.dim, self.cells, self.dx = len(cells), tuple(cells), dx
@@ -18,5 +19,5 @@ class Grid:
         self.shape = tuple(n + 1 + 2 * self.ghost for n in cells)
         self.m = np.zeros(self.shape)
         self.mv, self.impulse, self.v_old, self.v = np.zeros((4, *self.shape, self.dim))
-        self.residual = np.zeros_like(self.mv)
-        self.speed_squared, self.cut = 0.0, 0
+        self.residual, self.given = np.zeros((2, *self.mv.shape))
+        self.speed_squared, self.rate_squared, self.cut = 0.0, 0.0, 0

@@ -9,8 +9,9 @@ from . import materials
 
 class Particles:
     """x [m], v [m/s], H = F - I, m [kg], V0 [m^dim], X [m]; A [kg/s], T = - dt V0 tau [kg m^2/s],
-    and the impulse `force` [kg m/s], which P2G scatters; v_pic, dv, B, S, which the last G2P has
-    gathered; R, the residual velocity of a filter."""
+    and the impulse `force` [kg m/s], which P2G scatters; free_A [kg/s], which is A without the
+    stress, and V0_tau [J]; v_pic, dv, B, S, which the last G2P has gathered; R, the residual
+    velocity of a filter."""
 
     def __init__(self, bodies, basis, transfer, dx):
         self.x = np.concatenate([body.x for body in bodies])
@@ -21,7 +22,7 @@ class Particles:
         self.H = np.concatenate([body.displacement_gradient for body in bodies])
         self.count, self.dim = self.x.shape
         self.half_width = 0.5 * self.V0 ** (1 / self.dim) / dx
-        self.A, self.T = np.zeros((2, self.count, self.dim, self.dim))
+        self.A, self.T, self.free_A, self.V0_tau = np.zeros((4, self.count, self.dim, self.dim))
         self.S = np.concatenate([body.velocity_gradient for body in bodies])
         self.B = self.S * dx**2 / (basis.inverse_moment or 1.0)
         self.v_pic = self.v.copy()

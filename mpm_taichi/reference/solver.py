@@ -1,6 +1,7 @@
 """The step: the table of contents of the method."""
 
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +14,11 @@ from .kernels.grid_update import grid_update
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
 from .kernels.start_moments import start_moments
+from .kernels.tally import note_at_walls, note_start
 from .kernels.update_stress import update_stress
 from .kernels.wrap import wrap
 from .particles import Particles
+from .tally import Tally
 
 
 class Solver:
@@ -24,6 +27,7 @@ class Solver:
     def __init__(
         self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
         stress_update="usl", flip_part=None, filter_order=1, body_force=None,
+        audited=False,
     ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
         self.stress_update, self.body_force = stress_update, body_force
@@ -35,6 +39,10 @@ class Solver:
         self.gravity = np.array(gravity, float)
         if transfer.moments and not basis.inverse_moment:
             start_moments(self.particles, self.grid, basis)
+        self.tally: Any = None
+        if audited:
+            force = body_force is not None
+            self.tally = Tally(self.grid, walls, transfer, self.gravity, force)
 
     def _mass_cutoff(self, part, bodies, cells):
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight
@@ -48,24 +56,26 @@ class Solver:
 
     def start(self, dt):
         """Write the impulse of the first step, of length dt [s]."""
+        if self.tally and not self.transfer.increment:
+            note_start(self.particles, self.grid, self.basis, self.transfer, self.tally)
         self.update(0.0, dt)
 
     def update(self, dt, dt_next, **parts):
         for group in self.particles.groups:
             alpha = self.flip_part(dt)
             update_stress(
-                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha, **parts
-            )
+                self.particles, group, self.grid, self.transfer, dt, dt_next, alpha,
+                tally=self.tally, **parts,
+            )  # fmt: skip
 
-    def step(self, time, dt, choose_dt):
-        """Advance from `time` by dt [s]; returns the length of the next step, choose_dt(speed)."""
+    def step(self, time, dt, dt_next):
+        """Advance from `time` by dt [s], the next step being of length dt_next; returns the largest
+        |sum_i w_i v_i| [m/s] and |L| [1/s] of all particles."""
         wrap(self.particles, self.grid)
         if self.stress_update == "usf":
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
         self.map_motion(time, dt)
-        speed = sqrt(self.grid.speed_squared)
-        dt_next = choose_dt(speed)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
         elif self.stress_update == "usf":
@@ -74,7 +84,7 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        return dt_next
+        return sqrt(self.grid.speed_squared), sqrt(self.grid.rate_squared)
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""
@@ -82,10 +92,13 @@ class Solver:
             push(self.particles, self.grid, self.body_force, time, dt)
         clear(self.grid)
         p2g(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "given")
         fold_ghosts(self.grid, self.walls, self.gravity, dt)
-        grid_update(self.grid, self.walls, self.gravity, dt)
+        grid_update(self.grid, self.walls, self.gravity, dt, self.tally)
+        self.note_at_walls(dt, "kept")
         fill_ghosts(self.grid, self.walls, self.gravity)
-        g2p(self.particles, self.grid, self.basis, self.transfer)
+        self.note_at_walls(dt, "taken")
+        g2p(self.particles, self.grid, self.basis, self.transfer, dt=dt, tally=self.tally)
         if self.transfer.filtered:
             take_residual(
                 self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
@@ -100,3 +113,7 @@ class Solver:
         grid_update(self.grid, self.walls, self.gravity, 0.0)
         fill_ghosts(self.grid, self.walls, self.gravity)
         g2p(self.particles, self.grid, self.basis, self.transfer, "gradient")
+
+    def note_at_walls(self, dt, when):
+        if self.tally and self.walls:
+            note_at_walls(self.grid, self.gravity, dt, self.flip_part(dt), self.tally, when)

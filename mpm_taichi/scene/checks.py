@@ -130,6 +130,8 @@ def stress_update(method) -> Iterator[Found]:
 def step(time) -> Iterator[Found]:
     if time.step != "auto" and time.step > time.end:
         yield ("time", "step"), f"must not exceed time.end, {time.end:.12g} (got {time.step:.12g})"
+    if time.step == "auto" and not time.enforce:
+        yield ("time", "enforce"), "must not be false where time.step is auto: give a step"
 
 
 def interval(time, output) -> Iterator[Found]:

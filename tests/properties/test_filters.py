@@ -57,7 +57,7 @@ def decay(living, rng, basis, transfer, steps, dt=DT, **options):
     energy = [diagnostics.kinetic_energy(snapshot(mpm))]
     mpm.start(dt)
     for step in range(steps):
-        mpm.step(step * dt, dt, lambda speed: dt)
+        mpm.step(step * dt, dt, dt)
         energy.append(diagnostics.kinetic_energy(snapshot(mpm)))
     return np.array(energy[1:]) / energy[0]
 

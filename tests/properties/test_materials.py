@@ -249,7 +249,7 @@ def test_twin_gives_the_same(rng, material, dim):
         assert np.abs(ours[name] - values).max() <= 1e-12 * np.abs(values).max(), name
 
 
-@together("fluid")
+@together("von_mises")
 def test_extension_beyond_yield(rng):
     """Extension e = (a, -a, 0) at constant volume, in one step or in many: tau_1 - tau_3 by hand,
     q = sqrt(3) tau_1 = Y + h k with 2 sqrt(3) mu (a - sqrt(3)/2 k) = sqrt(3) tau_1."""

@@ -92,7 +92,7 @@ def test_published_law_at_the_published_times(end):
     solver.start(STEP)
     seen = {}
     for number in range(1, 100 * end + 1):
-        solver.step((number - 1) * STEP, STEP, lambda _: STEP)
+        solver.step((number - 1) * STEP, STEP, STEP)
         if number in (100 * t for t in LOWEST):
             lowest = 1e3 * solver.particles.to_numpy("x")[: len(disk), 1].min()
             seen[number // 100] = round(float(lowest), 3)

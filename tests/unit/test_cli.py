@@ -282,7 +282,7 @@ def test_a_library_that_is_missing(tmp_path):
         ([str(SCENES / "two_disk.yaml")], "there is no such file; did you mean"),
         (["run", str(SCENES)], "is a folder, not a scene file"),
         ([], "the following arguments are required: COMMAND"),
-        (["run"], "the following arguments are required: scene"),
+        (["run"], "name a scene file: python -m mpm_taichi SCENE.yaml"),
         ([str(LATTICE), "--frames", "0"], "must be a whole number from 1 on (got '0')"),
         ([str(LATTICE), "--threads", "-1"], "must be a whole number from 1 on (got '-1')"),
         ([str(LATTICE), "--threads", "1025"], "--threads: at most 1024 (got 1025)"),
@@ -316,10 +316,14 @@ def test_another_architecture_in_the_environment(monkeypatch, capfd):
 
 def test_check_runs_nothing(tmp_path, monkeypatch, capfd):
     """`check` seeds and plans, on stderr: particles, device, step, number of steps and outputs; no
-    folder is made.  A step above the limit gives a warning, here acoustic: 0.76 0.9 dx / (c + |v|)
-    with c^2 = 1.346 (nu = 0.3, E = rho) and |v| = 0.1414 is 0.0263."""
+    folder is made.  A step above the limit is refused, here acoustic: 0.76 0.9 dx / (c + |v|) with
+    c^2 = 1.346 (nu = 0.3, E = rho) and |v| = 0.1414 is 0.0263; or warned of, where the scene asks
+    to have it as it is."""
     monkeypatch.chdir(tmp_path)
-    assert cli.main(["--frames", "7", "check", str(LATTICE), "--set", "time.step=0.05"]) == 0
+    words = ["--frames", "7", "check", str(LATTICE), "--set", "time.step=0.05"]
+    assert cli.main(words) == 2
+    assert "longer than the acoustic limit of 0.02627 s" in capfd.readouterr().err
+    assert cli.main([*words, "--set", "time.enforce=false"]) == 0
     out, err = capfd.readouterr()
     assert out == ""
     assert "lower: 208 particles" in err

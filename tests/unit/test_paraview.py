@@ -2,6 +2,7 @@
 
 import threading
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,10 @@ from vtkmodules.vtkFiltersTensor import vtkTensorPrincipalInvariants
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
 
 from mpm_taichi import Simulation, cli, load_scene, vtk_files
-from mpm_taichi.recorders import ParaView
+from mpm_taichi.recorders import ParaView, Snapshots
 from mpm_taichi.recorders.paraview import Series
 from mpm_taichi.recording import Recording
+from mpm_taichi.scene import dump_scene
 from tests.command_line import SCENES, history
 
 SCENE = SCENES / "two_disks_lattice.yaml"
@@ -234,3 +236,36 @@ def test_the_disk_space_is_foreseen(run):
     written = sum(path.stat().st_size for path in (run / "paraview").iterdir())
     foreseen = Recording(run).report["disk"]["paraview"]
     assert 0.9 * foreseen < written <= 1.02 * foreseen
+
+
+def test_what_was_deleted_has_no_place(tmp_path):
+    """Particles that left the domain have neither mass nor place: a recording has nan for their
+    place and no kinetic energy, and files for ParaView, where one nan would hide all, leave them
+    out; the others keep their id.  Also where none is left."""
+    simulation = Simulation(load_scene(SCENE, CHANGES))
+    (tmp_path / "run.json").write_text("{}")
+    (tmp_path / "scene.yaml").write_text(dump_scene(simulation.scene))
+    recorders = [
+        Snapshots(tmp_path / "snapshots", simulation),
+        ParaView(tmp_path / "paraview", simulation, False),
+    ]
+    whole = simulation.snapshot
+    for remaining in ([3, 300], []):
+        mass, volume = np.zeros(416), np.zeros(416)
+        mass[remaining], volume[remaining] = 0.625, 1 / 1600
+        vars(simulation)["snapshot"] = replace(whole, mass=mass, initial_volume=volume)
+        for recorder in recorders:
+            recorder.record(simulation, is_output=True)
+    for number, count in enumerate((2, 0)):
+        frame = Recording(tmp_path)[number]
+        assert np.isnan(frame.position).all(axis=1).sum() == 416 - count
+        assert np.count_nonzero(frame.kinetic_energy) == count
+        data, arrays, _ = read(tmp_path / "paraview" / f"particles_{number:04d}.vtp")
+        assert data.GetNumberOfVerts() == len(places(data)) == count
+        if count:
+            assert arrays["id"].tolist() == [3, 300]
+            assert arrays["body"].tolist() == [0, 1]
+            assert arrays["density [kg/m^3]"] == pytest.approx([1000, 1000])
+            assert places(data)[:, :2] == pytest.approx(whole.position[[3, 300]], rel=6e-8)
+    assert cli.main(["export", str(tmp_path), "--vtk", "--overwrite"]) == 0
+    assert read(tmp_path / "paraview" / "particles_0000.vtp")[1]["id"].tolist() == [3, 300]

@@ -71,7 +71,7 @@ class Living:
 def advance(solver, dt, steps):
     solver.start(dt)
     for step in range(steps):
-        solver.step(step * dt, dt, lambda speed: dt)
+        solver.step(step * dt, dt, dt)
 
 
 def snapshot(solver):

@@ -3,12 +3,14 @@
 import numpy as np
 
 from .stencil import stencil
+from .tally import note_particles
 
 
-def g2p(particles, grid, basis, transfer, what="all"):
+def g2p(particles, grid, basis, transfer, what="all", dt=0.0, tally=None):
     """v_p = sum_i w_ip v_i, B_p = sum_i w_ip v_i (x_i - x_p)^T, S_p = sum_i v_i grad w_ip^T, and
     with `transfer.increment` the change sum_i w_ip (v_i - v_i^old).  Of these `what` asks for "all"
-    or for the "gradient" S_p; or it is the "residual" of a filter, R_p -= sum_i w_ip R_i."""
+    or for the "gradient" S_p; or it is the "residual" of a filter, R_p -= sum_i w_ip R_i.
+    A `tally` has noted energy and supplies of the step, which is dt [s] long."""
     if what == "residual":
         for p in range(particles.count):
             for i, _, w, _ in stencil(p, particles, grid, basis):
@@ -26,3 +28,5 @@ def g2p(particles, grid, basis, transfer, what="all"):
                 particles.B[p] += w * np.outer(grid.v[i], r)
                 if transfer.increment:
                     particles.dv[p] += w * (grid.v[i] - grid.v_old[i])
+    if tally:
+        note_particles(particles, grid, basis, transfer, dt, tally)

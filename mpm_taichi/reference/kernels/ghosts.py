@@ -62,7 +62,7 @@ def exchange_all(grid, walls, gravity, dt, updated, fill, records):
 def fold_ghosts(grid, walls, gravity, dt, updated=False):
     """On return ghost nodes are empty, and what they had been given is with their images: mass,
     momentum and impulse before the grid update, after it (`updated`) the residual."""
-    records = (grid.residual,) if updated else (grid.m, grid.mv, grid.impulse)
+    records = (grid.residual,) if updated else (grid.m, grid.mv, grid.impulse, grid.given)
     exchange_all(grid, walls, gravity, dt, updated, False, records)
 
 

@@ -3,9 +3,7 @@
 import numpy as np
 
 from .stencil import moment, weigh
-
-TURNS = {2: ((0, 1),), 3: ((1, 2), (2, 0), (0, 1))}
-"""The plane of each component of an angular momentum."""
+from .tally import TURNS
 
 
 def spin_moments(p, particles, grid, basis, transfer):

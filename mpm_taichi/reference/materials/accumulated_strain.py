@@ -18,6 +18,13 @@ class AccumulatedStrain(MaterialLaw):
         return (1 + volume_strain(H)) * AccumulatedStrain.cauchy_stress(c, s.strain)
 
     @staticmethod
+    def moduli(c, H, s):
+        """Those of small strain and the stress itself, which turns with a body or does not."""
+        J, size = 1 + volume_strain(H), np.linalg.norm(AccumulatedStrain.kirchhoff_stress(c, H, s))
+        wave, lone = c.lam + 2 * c.mu, len(H) * max(c.lam, 0.0) + 2 * c.mu
+        return J * wave + size, J * lone + np.sqrt(len(H)) * size
+
+    @staticmethod
     def energy_density(c, H, s):
         sigma = AccumulatedStrain.cauchy_stress(c, s.strain)
         return 0.5 * (1 + volume_strain(H)) * (sigma * s.strain).sum()

@@ -26,13 +26,21 @@ class DruckerPrager(Flowing):
             part, flows = largest / size if size > largest else 1.0, True
             s.plastic_strain = s.plastic_strain + np.sqrt(2 / 3) * (1 - part) * size
         if flows:
-            lost = Flowing.energy(c, size, trial) - Flowing.energy(c, part * size, volume)
-            s.dissipated = s.dissipated + lost
+            sheared = 2 * c.mu * part * (1 - part) * size**2
+            opened = (c.lam + 2 / 3 * c.mu) * volume * (trial - volume)
+            s.dissipated = s.dissipated + sheared + opened
             swelling = (volume - trial) / 3
             change = (part - 1) * D + swelling * np.eye(len(H))
             H, s = Flowing.flowed(H, s, change, (part - 1) * D_zz + swelling)
             e = e + change
         return H, s, Hencky.stress(c, e, volume)
+
+    @staticmethod
+    def moduli(c, H, s):
+        """Flow without dilation is stiffer than no flow where sand expands and is sheared back."""
+        wave, lone = Flowing.moduli(c, H, s)
+        extra = (c.slope * (c.lam + 2 / 3 * c.mu)) ** 2 / (8 * c.mu)
+        return wave + extra, lone + len(H) * extra
 
     @staticmethod
     def volume_ratio(c, H, s):

@@ -3,7 +3,7 @@ invertible elasticity."""
 
 import numpy as np
 
-from .invariants import volume_strain
+from .invariants import squared_stretches, volume_strain
 from .law import MaterialLaw
 from .polar import rotation
 
@@ -16,6 +16,15 @@ class FixedCorotated(MaterialLaw):
         F, pressure = np.eye(len(H)) + H, FixedCorotated.out_of_plane_stress(c, H, s)
         tau = 2 * c.mu * (H - rotation(H)) @ F.T + pressure * np.eye(len(H))
         return H, s, tau
+
+    @staticmethod
+    def moduli(c, H, s):
+        """Along the wave rho0 c^2 = 2 mu s^2 + lam J^2, across it less; softer where J is small."""
+        _, most = squared_stretches(H)
+        stretch, J, lam = np.sqrt(most), 1 + volume_strain(H), max(c.lam, 0.0)
+        wave = c.mu * max(2 * most, stretch) + lam * J**2
+        lone = 2 * c.mu * max(2 * most - stretch, 0.0)
+        return wave, lone + len(H) * lam * max(J * (2 * J - 1), 0.0)
 
     @staticmethod
     def energy_density(c, H, s):

@@ -35,6 +35,12 @@ class Flowing(MaterialLaw):
         return H + G + G @ H, s
 
     @staticmethod
+    def moduli(c, H, s):
+        """Of the elastic part: flow is softer."""
+        volume = log_volume_ratio(volume_strain(H)) + (s.strain_across if len(H) == 2 else 0.0)
+        return Hencky.moduli_at(c, H, volume)
+
+    @staticmethod
     def energy_density(c, H, s):
         e, e_zz, volume = Flowing.strain(H, s)
         _, _, size = Flowing.deviator(e, e_zz, volume)

@@ -29,6 +29,14 @@ class Fluid(MaterialLaw):
         return isotropic(H, strain), s, tau
 
     @staticmethod
+    def moduli(c, H, s):
+        """rho0 c^2 = K J^(1 - gamma); for a lone particle the pressure comes off, J p per axis."""
+        strain = volume_strain(H)
+        power = 1 + exp_less_one((1 - c.exponent) * log_volume_ratio(strain))
+        pressure = (power - 1 - strain) / c.exponent
+        return c.bulk_modulus * power, len(H) * c.bulk_modulus * (power - pressure)
+
+    @staticmethod
     def energy_density(c, H, s):
         """int p d(-J) from J = 1."""
         strain = volume_strain(H)

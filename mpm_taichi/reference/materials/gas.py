@@ -21,6 +21,12 @@ class Gas(MaterialLaw):
         return isotropic(H, strain), s, tau
 
     @staticmethod
+    def moduli(c, H, s):
+        """rho0 c^2 = gamma (gamma - 1) U, more with the linear artificial viscosity."""
+        elastic = c.heat_ratio * (c.heat_ratio - 1) * s.energy
+        return (c.linear + np.sqrt(1 + c.linear**2)) ** 2 * elastic, len(H) * elastic
+
+    @staticmethod
     def energy_density(c, H, s):
         return s.energy
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .invariants import left_strain, log_volume_ratio, volume_strain
+from .invariants import left_strain, log_volume_ratio, squared_stretches, volume_strain
 from .law import MaterialLaw
 from .symmetric import logarithm
 
@@ -22,6 +22,20 @@ class Hencky(MaterialLaw):
     def update(c, H, L, dt, s):
         e = Hencky.strain(H)
         return H, s, Hencky.stress(c, e, e.trace())
+
+    @staticmethod
+    def moduli(c, H, s):
+        return Hencky.moduli_at(c, H, log_volume_ratio(volume_strain(H)))
+
+    @staticmethod
+    def moduli_at(c, H, volume):
+        """G + |C|, see mpm_taichi/materials/hencky.py."""
+        low, high = np.log(squared_stretches(H))
+        y = 0.5 * (high - low)
+        shear, pressure = c.mu * (1 + y**2 / 3), c.lam * (1 - volume)
+        softest, stiffest = pressure + c.mu * (1 - high), pressure + shear - c.mu * low
+        wave = shear + c.mu * y + max(stiffest, -softest, 0.0)
+        return wave, len(H) * max(c.lam, 0.0) + 2 * shear
 
     @staticmethod
     def energy_density(c, H, s):

@@ -15,6 +15,16 @@ def volume_strain(H):
     return H.trace() + 0.5 * (H.trace() ** 2 - (H @ H).trace()) + np.linalg.det(H)
 
 
+def squared_stretches(H):
+    """A lower and an upper bound of the principal values of b = F F^T."""
+    n, b = len(H), np.eye(len(H)) + left_strain(H)
+    mean, J = b.trace() / n, 1 + volume_strain(H)
+    spread = np.sqrt((n - 1) / n * ((b - mean * np.eye(n)) ** 2).sum())
+    if n == 2:
+        return J**2 / (mean + spread), mean + spread
+    return max(mean - spread, (J / (1.5 * mean)) ** 2), mean + spread
+
+
 def log_volume_ratio(strain):
     """ln(1 + strain); NaN from -1 down."""
     return np.log1p(strain) if strain > -1 else np.nan

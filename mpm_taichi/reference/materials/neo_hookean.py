@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .invariants import left_strain, log_volume_ratio, volume_strain
+from .invariants import left_strain, log_volume_ratio, squared_stretches, volume_strain
 from .law import MaterialLaw
 
 
@@ -14,6 +14,14 @@ class NeoHookean(MaterialLaw):
         log_J = log_volume_ratio(volume_strain(H))
         tau = c.mu * left_strain(H) + c.lam * log_J * np.eye(len(H))
         return H, s, tau
+
+    @staticmethod
+    def moduli(c, H, s):
+        """rho0 c^2 = mu s^2 + mu + lam (1 - ln J), s the stretch along the wave; ln J is at
+        least 1 - 1/J."""
+        _, most = squared_stretches(H)
+        along = c.mu + max(c.lam, c.lam / (1 + volume_strain(H)))
+        return along + c.mu * most, len(H) * max(c.lam, 0.0) + 2 * c.mu * most
 
     @staticmethod
     def energy_density(c, H, s):

@@ -4,6 +4,7 @@ from functools import reduce
 
 import numpy as np
 
+from .fixed_corotated import FixedCorotated
 from .invariants import exp_less_one, left_strain, volume_strain
 from .law import MaterialLaw
 from .symmetric import assembled, eigen
@@ -36,6 +37,13 @@ class Snow(MaterialLaw):
         strain = volume_of(y)
         tau = 2 * c.mu * (y + y**2) + c.lam * strain * (1 + strain)
         return H, s, assembled(Snow.hardness(c, s) * tau, V)
+
+    @staticmethod
+    def moduli(c, H, s):
+        """Those of fixed-corotated snow as hard as it is."""
+        factor = Snow.hardness(c, s)
+        wave, lone = FixedCorotated.moduli(c, H, s)
+        return factor * wave, factor * lone
 
     @staticmethod
     def energy_density(c, H, s):
