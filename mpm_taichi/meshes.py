@@ -59,7 +59,9 @@ class MeshFile(Model):
 
     type: Literal["mesh"] = "mesh"
     file: str = Field(min_length=1, description="mesh: .msh (2.2 or 4.1), .vtu or .vtk")
-    move: Vector | None = Field(None, description="added to the coordinates of the file [m]")
+    move: Vector | None = Field(
+        default=None, description="added to the coordinates of the file [m]"
+    )
 
     needs_shape: ClassVar[bool] = False
 

@@ -98,7 +98,8 @@ class APICChoice(Model):
 
     type: Literal["apic"] = "apic"
     force: Literal["mls", "gradient"] = Field(
-        "mls", description="stress as part of the affine momentum (MLS-MPM), or along grad w"
+        default="mls",
+        description="stress as part of the affine momentum (MLS-MPM), or along grad w",
     )
 
     @property

@@ -1,20 +1,21 @@
 """Scenes made in Python, of the same models as those of files."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
+from mpm_taichi import scene
 from mpm_taichi.errors import InputError
 from mpm_taichi.scene import (
     Ball,
     Body,
-    Box,
     Domain,
     FLIPChoice,
     Lattice,
     LinearElastic,
     Method,
-    NeoHookean,
     Output,
     Scene,
     Time,
@@ -25,24 +26,30 @@ from mpm_taichi.scene import (
 from mpm_taichi.shapes import Shape
 from tests.command_line import SCENES
 
+ANY: Any = scene
+"""The same models, given what a type checker would not have."""
+
 RUBBER = LinearElastic(density=1000, youngs_modulus=1000, poissons_ratio=0.3)
 
 
 def disk(name: str, at: float, **others) -> Body:
-    velocity = (0.1, 0.1) if at < 0.5 else (-0.1, -0.1)
-    parts = {"shape": Ball(center=(at, at), radius=0.2), "particles": Lattice(spacing=0.025)}
-    return Body(name=name, material="rubber", velocity=velocity, **(parts | others))
+    parts: dict[str, Any] = {
+        "velocity": [0.1, 0.1] if at < 0.5 else [-0.1, -0.1],
+        "shape": Ball(center=[at, at], radius=0.2), "particles": Lattice(spacing=0.025),
+    }  # fmt: skip
+    return Body(name=name, material="rubber", **(parts | others))
 
 
 def two_disks(**others) -> Scene:
-    parts = {
-        "domain": Domain(size=(1.0, 1.0), cells=(20, 20)),
+    parts: dict[str, Any] = {
+        "version": 1,
+        "domain": Domain(size=[1.0, 1.0], cells=[20, 20]),
         "method": Method(basis="linear", transfer=FLIPChoice()),
         "time": Time(end=3.5, step=1e-3),
         "materials": {"rubber": RUBBER},
         "bodies": [disk("lower", 0.2), disk("upper", 0.8)],
     }
-    return Scene(**({"version": 1} | parts | others))
+    return Scene(**(parts | others))
 
 
 def test_the_published_scene_in_python():
@@ -62,44 +69,44 @@ def test_the_published_scene_in_python():
 
 def test_made_scenes_are_read_back(tmp_path):
     """Also one with a preset and with mappings in place of models."""
-    scene = two_disks(
+    made = two_disks(
         materials={"rubber": {"preset": "rubber", "youngs_modulus": 2000}},
         method={"transfer": {"type": "flip", "ratio": 0.9}},
     )
-    (tmp_path / "x.yaml").write_text(dump_scene(scene))
-    assert load_scene(tmp_path / "x.yaml") == scene
+    (tmp_path / "x.yaml").write_text(dump_scene(made))
+    assert load_scene(tmp_path / "x.yaml") == made
 
 
 def test_tuples_arrays_and_their_numbers_serve(rng):
     """Anything that holds numbers: lists, tuples, arrays, NumPy's floats and integers."""
     x, radius = rng.uniform(0.3, 0.7, 2), rng.uniform(0.1, 0.2)
     expected = Ball(center=x.tolist(), radius=float(radius))
-    assert Ball(center=tuple(x), radius=np.float64(radius)) == expected
-    assert Ball(center=x, radius=np.array(radius)) == expected
-    assert Domain(size=np.ones(2), cells=np.array([4, 4])).cells == [4, 4]
-    assert Lattice(per_cell=np.int64(2)).per_cell == 2
+    assert ANY.Ball(center=tuple(x), radius=np.float64(radius)) == expected
+    assert ANY.Ball(center=x, radius=np.array(radius)) == expected
+    assert ANY.Domain(size=np.ones(2), cells=np.array([4, 4])).cells == [4, 4]
+    assert ANY.Lattice(per_cell=np.int64(2)).per_cell == 2
 
 
 @pytest.mark.parametrize(
     "make, said",
     [
-        (lambda: Ball(center=[0, 0], radius=-1), "Ball: radius: must be greater than 0 (got -1)"),
+        (lambda: ANY.Ball(center=[0, 0], radius=-1), "radius: must be greater than 0 (got -1)"),
         (
-            lambda: Ball(center=[0], radus=1),
+            lambda: ANY.Ball(center=[0], radus=1),
             "Ball: center: must be a list of 2 or 3 numbers (got [0])\n"
             "Ball: radius: is required: a number greater than 0\n"
             "Ball: radus: unknown key; did you mean 'radius'?",
         ),
-        (lambda: Lattice(), "Lattice: a lattice needs one of spacing and per_cell (got neither)"),
+        (lambda: ANY.Lattice(), "Lattice: a lattice needs one of spacing and per_cell (got n"),
         (
-            lambda: NeoHookean(density=1, youngs_modulus=1, poissons_ratio=0.5),
+            lambda: ANY.NeoHookean(density=1, youngs_modulus=1, poissons_ratio=0.5),
             "NeoHookean: poissons_ratio: must be greater than -1 and less than 0.5 (got 0.5)",
         ),
         (
             lambda: disk("a", 0.2, shape=RUBBER),
             "Body: shape.type: must be one of ball, box, cylinder, ring (got 'linear_elastic')",
         ),
-        (lambda: Method(basis="quadratc"), "did you mean 'quadratic'?"),
+        (lambda: ANY.Method(basis="quadratc"), "did you mean 'quadratic'?"),
         (
             lambda: two_disks(gravity=(0, 0, 1), time=Time(end=1e-4, step=1e-3)),
             "Scene: time.step: must not exceed time.end, 0.0001 (got 0.001)\n"
@@ -111,7 +118,7 @@ def test_tuples_arrays_and_their_numbers_serve(rng):
         ),
         (
             lambda: two_disks(
-                bodies=[disk("a", 0.2, shape=Box(min=(0.5, 0.5), max=(1.5, 0.7)))]
+                bodies=[disk("a", 0.2, shape=ANY.Box(min=(0.5, 0.5), max=(1.5, 0.7)))]
             ),
             "Scene: bodies[0].shape: leaves the domain: 0.5 m beyond x = 1",
         ),
