@@ -69,7 +69,7 @@ def test_a_notebook_shows_the_picture(tmp_path):
     """`_repr_png_` is the picture that a run writes at this moment, byte by byte, also where the
     scene writes none; the simulation goes on as if nobody had looked."""
     words = ("time.end=0.006", "output.every=0.002", "output.images.size=100")
-    simulation = Simulation(scene(*words))
+    simulation, shown = Simulation(scene(*words)), None
     for _ in simulation.frames():
         shown = simulation._repr_png_()
     style = simulation.scene.output.images
