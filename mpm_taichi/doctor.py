@@ -37,9 +37,10 @@ PACKAGES = (
     Package("Pillow", "text on pictures", "Pillow>=10.1"),
     Package("meshio", "mesh files of yours", "meshio>=5.3.5"),
     Package("gmsh", "meshes of shapes", "gmsh>=4.12"),
-    Package("matplotlib", "converge, curve, plots", "matplotlib>=3.8", True),
+    Package("matplotlib", "plot, compare, converge, curve", "matplotlib>=3.8", True),
     Package("imageio-ffmpeg", "export --mp4", "imageio-ffmpeg>=0.5", True),
     Package("vtk", "tests of files for ParaView", "vtk>=9.3", True),
+    Package("playwright", "clicking tests of the player", "playwright>=1.40", True),
     Package("pytest", "the tests", "pytest>=8", True),
 )
 """As pyproject.toml has them."""
