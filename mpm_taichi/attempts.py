@@ -41,7 +41,7 @@ class Attempts:
     def run(self, followers) -> None:
         """`followers`: recorders that keep nothing."""
         while True:
-            with self._recording() as keeper:
+            with self.recording() as keeper:
                 try:
                     return self.simulation.run([*self.recorders, keeper, *followers])
                 except Interrupted as wish:
@@ -64,7 +64,8 @@ class Attempts:
         return next(iter(checkpoints.newest_first(self.folder / "checkpoints")), None)
 
     @contextlib.contextmanager
-    def _recording(self):
+    def recording(self):
+        """Within it `recorders` are open; yields the one that writes checkpoints."""
         scene, output = self.simulation.scene, self.simulation.scene.output
         every, states = output.history.every_steps, {}
         if self.checkpoint is not None:

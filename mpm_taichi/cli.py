@@ -15,8 +15,7 @@ from .errors import InputError, RunError
 def main(arguments: list[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        top, parsers = parser()
-        options = top.parse_args(_with_command(words, parsers))
+        options = parse(words)
         return COMMANDS[options.command].execute(options)
     except InputError as error:
         print(error, file=sys.stderr)
@@ -31,6 +30,12 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     except ImportError as error:
         return _missing_library(error)
+
+
+def parse(words: list[str]) -> argparse.Namespace:
+    """The options of a command; what is wrong ends the program or is an InputError."""
+    top, parsers = parser()
+    return top.parse_args(_with_command(words, parsers))
 
 
 def parser() -> tuple[argparse.ArgumentParser, list[argparse.ArgumentParser]]:

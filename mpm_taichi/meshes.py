@@ -33,7 +33,7 @@ class GmshMesh(Model):
     The volumes add up to that of the polygon or polyhedron, for a ball a little below the exact
     one.  One version of gmsh always makes the same mesh."""
 
-    type: Literal["gmsh"]
+    type: Literal["gmsh"] = "gmsh"
     size: Positive = Field(description="edge length of the elements [m]")
 
     needs_shape: ClassVar[bool] = True
@@ -57,9 +57,11 @@ class MeshFile(Model):
 
     Each is listed once, nodes counter-clockwise (2D) or right-handed (3D)."""
 
-    type: Literal["mesh"]
+    type: Literal["mesh"] = "mesh"
     file: str = Field(min_length=1, description="mesh: .msh (2.2 or 4.1), .vtu or .vtk")
-    move: Vector | None = Field(None, description="added to the coordinates of the file [m]")
+    move: Vector | None = Field(
+        default=None, description="added to the coordinates of the file [m]"
+    )
 
     needs_shape: ClassVar[bool] = False
 

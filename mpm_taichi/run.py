@@ -15,6 +15,7 @@ from .audit import describe as describe_audit
 from .disk_space import describe, planned_disk, refuse_full_disk
 from .errors import InputError, MotionError, RunError
 from .interruption import Interrupted, Interruption
+from .predicted_time import predict
 from .progress import Progressing
 from .recorders import Errors
 from .report import Report, whom
@@ -100,7 +101,19 @@ def check(scene, options, console: Console) -> int:
         f"after the start",
         soft_wrap=True,
     )  # fmt: skip
+    if options.time:
+        console.print("taking the first steps to tell the time (--no-time leaves it out) ...")
+        console.print(told_time(simulation), soft_wrap=True)
     return 0
+
+
+def told_time(simulation) -> str:
+    """How long the run will take, in words."""
+    try:
+        prediction = predict(simulation)
+    except MotionError as error:
+        return f"warning: the run fails in its first steps: {error}"
+    return "time: one step" if prediction is None else prediction.describe()
 
 
 def announce(simulation, console):

@@ -30,10 +30,15 @@ class Lattice(Model):
     The lattice is anchored at the origin of the domain.  A point on the surface, to rounding, is
     outside, so that both sides of a symmetric body are alike."""
 
-    type: Literal["lattice"]
-    spacing: Positive | None = Field(None, description="distance h of neighboring points [m]")
+    type: Literal["lattice"] = "lattice"
+    spacing: Positive | None = Field(
+        default=None, description="distance h of neighboring points [m]"
+    )
     per_cell: int | None = Field(
-        None, ge=1, le=1000, description="points per cell and axis: h = cell size / per_cell"
+        default=None,
+        ge=1,
+        le=1000,
+        description="points per cell and axis: h = cell size / per_cell",
     )
 
     needs_shape: ClassVar[bool] = True

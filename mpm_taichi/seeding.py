@@ -46,7 +46,7 @@ def expected_counts(scene) -> list[int]:
             with np.errstate(all="ignore"):
                 h = np.float64(body.particles.distance(scene.cell_size))
                 count = np.float64(body.shape.volume()) / h**scene.dimension
-        counts.append(int(count) if count <= LARGEST_LATTICE else 0)
+        counts.append(round(count) if count <= LARGEST_LATTICE else 0)
     return counts
 
 

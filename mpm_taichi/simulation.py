@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import runtime, stages
+from .at_outputs import as_recorder
 from .bodies import body_points
 from .errors import InputError, MotionError
 from .kernels.guard import guard
@@ -14,6 +15,7 @@ from .kernels.sums import sums
 from .kernels.whole_steps import Clock
 from .ledger import begin_ledger, ledger
 from .memory import planned_memory, refuse_too_much
+from .notebook import picture
 from .scene import Scene
 from .schedules import EverySeconds, even_step
 from .seeding import expected_counts, seed
@@ -262,7 +264,11 @@ class Simulation:
 
     def run(self, recorders=()) -> None:
         """Step to the end.  Each recorder sees the start, every output and every step; one that has
-        `every_steps` at least those that it divides, or none between outputs if it is None."""
+        `every_steps` at least those that it divides, or none between outputs if it is None.
+
+        A plain function serves as a recorder: it is called with the simulation at the start and at
+        every output."""
+        recorders = [as_recorder(one) for one in recorders]
         if not self.is_started:
             self.is_started = True
             for recorder in recorders:
@@ -405,6 +411,10 @@ class Simulation:
         body = int(np.searchsorted(self.ranges, number, side="right")) - 1
         spec = self.scene.bodies[body]
         return f"particle {number} (body {spec.name}, material {spec.material})"
+
+    def _repr_png_(self) -> bytes | None:
+        """What a notebook shows of it: its picture now."""
+        return picture(self)
 
     @cached_property
     def body_mass(self) -> np.ndarray:

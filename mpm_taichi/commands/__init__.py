@@ -12,8 +12,11 @@ from . import (
     compare,
     converge,
     curve,
+    doctor,
     export,
+    list,
     materials,
+    new,
     plot,
     replay,
     run,
@@ -23,6 +26,7 @@ from . import (
 COMMANDS = {
     module.__name__.rpartition(".")[2]: module
     for module in (
-        run, replay, check, export, plot, compare, converge, advise, materials, curve, schema,
+        run, new, list, check, replay, export, plot, compare, converge, advise, materials, curve,
+        schema, doctor,
     )
 }  # fmt: skip

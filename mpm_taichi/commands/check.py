@@ -1,4 +1,4 @@
-"""Validate and seed a scene, and show the plan: particles, memory, time step, steps."""
+"""Validate and seed a scene, and show the plan: particles, memory, time step, steps, time."""
 
 from .arguments import add_frames, add_machine, add_scene, progress_console, scene_of
 
@@ -7,6 +7,10 @@ def add(parser) -> None:
     add_scene(parser)
     add_machine(parser)
     add_frames(parser)
+    parser.add_argument(
+        "--no-time", dest="time", action="store_false",
+        help="leave out the time of the run, which takes its first steps to tell",
+    )  # fmt: skip
 
 
 def execute(options) -> int:

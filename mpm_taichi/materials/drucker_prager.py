@@ -25,7 +25,7 @@ class DruckerPrager(Flowing):
         compression   A = m sin phi,   B = m C cos phi,   m = 2 sqrt(6) / (3 - sin phi)
         plane_strain  A = m tan phi,   B = m C,   m = 3 sqrt(2) / sqrt(9 + 12 tan^2 phi)"""
 
-    type: Literal["drucker_prager"]
+    type: Literal["drucker_prager"] = "drucker_prager"
     friction_angle: float = Field(ge=0, lt=90, description="of internal friction, phi [degrees]")
     cohesion: float = Field(default=0.0, ge=0, description="strength without pressure, C [Pa]")
     cone: Literal["compression", "plane_strain"] = Field(

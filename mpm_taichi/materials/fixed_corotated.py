@@ -19,7 +19,7 @@ class FixedCorotated(Elastic):
 
     invertible = True
 
-    type: Literal["fixed_corotated"]
+    type: Literal["fixed_corotated"] = "fixed_corotated"
 
     @staticmethod
     @ti.func

@@ -25,7 +25,7 @@ class Fluid(MaterialLaw):
 
     counters = {"cut_off": "tension of a fluid cut off, particles"}
 
-    type: Literal["fluid"]
+    type: Literal["fluid"] = "fluid"
     bulk_modulus: Positive = Field(description="K at J = 1 [Pa]")
     exponent: float = Field(default=7.0, gt=1, description="gamma [-]")
     viscosity: float = Field(default=0.0, ge=0, description="of shear, eta [Pa s]")

@@ -21,7 +21,7 @@ class Gas(MaterialLaw):
     a is the speed of sound.  U is what the law stores: nothing is lost, and what q takes from the
     motion heats the gas.  F is kept as J^(1/dim) I."""
 
-    type: Literal["gas"]
+    type: Literal["gas"] = "gas"
     pressure: Positive = Field(description="at the start, where J = 1 [Pa]")
     heat_ratio: float = Field(default=1.4, gt=1, description="of specific heats, gamma [-]")
     quadratic_viscosity: float = Field(

@@ -16,7 +16,7 @@ class Hencky(Elastic):
     Linear in the logarithms of the stretches, as stiff in compression as in tension; softens where
     it is stretched far."""
 
-    type: Literal["hencky"]
+    type: Literal["hencky"] = "hencky"
 
     @staticmethod
     @ti.func

@@ -17,7 +17,7 @@ class Hypoelastic(AccumulatedStrain):
     behind it, and closed paths of large strain do work: for stiff bodies, whose strains are
     small."""
 
-    type: Literal["hypoelastic"]
+    type: Literal["hypoelastic"] = "hypoelastic"
 
     @staticmethod
     @ti.func

@@ -13,7 +13,7 @@ class LinearElastic(AccumulatedStrain):
     The stress does not rotate with the body: for small strain and small rotation, and for the
     published two disks, which were computed so."""
 
-    type: Literal["linear_elastic"]
+    type: Literal["linear_elastic"] = "linear_elastic"
 
     @staticmethod
     @ti.func

@@ -13,7 +13,7 @@ class NeoHookean(Elastic):
 
     Stiffens in compression, rotates with the body; J must stay above 0."""
 
-    type: Literal["neo_hookean"]
+    type: Literal["neo_hookean"] = "neo_hookean"
 
     @staticmethod
     @ti.func

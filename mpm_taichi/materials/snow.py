@@ -25,7 +25,7 @@ class Snow(Elastic):
 
     counters = {"capped": "hardening of snow capped"}
 
-    type: Literal["snow"]
+    type: Literal["snow"] = "snow"
     critical_compression: float = Field(gt=0, lt=1, description="theta_c [-]")
     critical_stretch: Positive = Field(description="theta_s [-]")
     hardening: float = Field(ge=0, description="xi [-]")

@@ -21,7 +21,7 @@ class VonMises(Flowing):
 
     Lost is Y k + h k^2 / 2, all plastic work: what hardening stores is not given back."""
 
-    type: Literal["von_mises"]
+    type: Literal["von_mises"] = "von_mises"
     yield_stress: Positive = Field(description="yield stress Y [Pa], of the Kirchhoff stress")
     hardening: float = Field(
         default=0.0, ge=0, description="rise of the yield stress with plastic strain h [Pa]"

@@ -15,14 +15,15 @@ OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_e
 NOUNS = {"number": "number", "integer": "whole number", "string": "text", "object": "mapping"}
 
 
-def messages(errors: Iterable, data) -> dict[tuple[tuple, str], None]:
-    """Path and sentence of each of pydantic's errors about the data, without repetition."""
+def messages(errors: Iterable, data, whole: dict | None = None) -> dict[tuple[tuple, str], None]:
+    """Path and sentence of each of pydantic's errors about the data, without repetition.  `whole`:
+    the rule of the data; default: that of a scene."""
     found = {}
     for error in errors:
         if error["type"] == "scene":
             found[error["loc"], error["msg"]] = None
             continue
-        path, rule, holder = follow(error["loc"], data)
+        path, rule, holder = follow(error["loc"], data, whole)
         value = value_at(path, data)
         kind = error["type"]
         word = kind in ("literal_error", "bool_type")

@@ -94,7 +94,7 @@ class Method(Model):
         default="quadratic", description="functions that carry values to the nodes"
     )
     transfer: Transfer = Field(
-        default=APICChoice(type="apic", force="mls"),
+        default=APICChoice(force="mls"),
         description="what particles and nodes exchange",
     )
     stress_update: Literal["usl", "musl", "usf"] = Field(

@@ -14,12 +14,13 @@ def scene_schema() -> dict:
     }
 
 
-def follow(location: tuple, data) -> tuple[tuple, dict, dict]:
-    """Path in the file, rule for the value there and rule for the mapping or list that holds it.
+def follow(location: tuple, data, whole: dict | None = None) -> tuple[tuple, dict, dict]:
+    """Path in the file, rule for the value there and rule for the mapping or list that holds it;
+    the data have the rule `whole`; default: that of a scene.
 
     `location` is pydantic's: after a union it names the branch taken, which the file need not
     have.  A rule is a part of the schema, {} where the schema says nothing."""
-    path, holder, rule = (), {}, scene_schema()
+    path, holder, rule = (), {}, whole or scene_schema()
     branch, branch_comes = None, False
     for part in location:
         if branch_comes:

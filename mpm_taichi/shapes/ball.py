@@ -12,7 +12,7 @@ from ..model import Model, Positive, Vector
 class Ball(Model):
     """|x - center| < radius."""
 
-    type: Literal["ball"]
+    type: Literal["ball"] = "ball"
     center: Vector = Field(description="center [m]")
     radius: Positive = Field(description="radius [m]")
 

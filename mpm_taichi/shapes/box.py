@@ -12,7 +12,7 @@ from ..model import Model, Vector
 class Box(Model):
     """min < x < max along each axis."""
 
-    type: Literal["box"]
+    type: Literal["box"] = "box"
     min: Vector = Field(description="corner of the lowest coordinates [m]")
     max: Vector = Field(description="corner of the highest coordinates [m]")
 

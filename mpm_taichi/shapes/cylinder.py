@@ -13,7 +13,7 @@ class Cylinder(Model):
     """Points up to `radius` from the axis and half the length from the middle, at angles between
     two about the axis: counted from y to z about x, from z to x about y, from x to y about z."""
 
-    type: Literal["cylinder"]
+    type: Literal["cylinder"] = "cylinder"
     center: list[float] = Field(
         min_length=3, max_length=3, description="middle of the axis [m], three entries"
     )

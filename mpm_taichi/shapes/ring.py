@@ -12,7 +12,7 @@ from ..model import Model, Positive
 class Ring(Model):
     """Points whose distance from a center lies between two radii, in 2D."""
 
-    type: Literal["ring"]
+    type: Literal["ring"] = "ring"
     center: list[float] = Field(min_length=2, max_length=2, description="center [m], two entries")
     inner_radius: Positive = Field(description="radius of the hole [m]")
     outer_radius: Positive = Field(description="radius of the rim [m]")

@@ -48,7 +48,7 @@ class FlipPart(NamedTuple):
 class PICChoice(Model):
     """Smooth and very dissipative."""
 
-    type: Literal["pic"]
+    type: Literal["pic"] = "pic"
 
     @property
     def transfer(self):
@@ -58,7 +58,7 @@ class PICChoice(Model):
 class FLIPChoice(Model):
     """Keeps energy, and noise unless a little PIC is blended in."""
 
-    type: Literal["flip"]
+    type: Literal["flip"] = "flip"
     relaxation_time: Positive | None = Field(
         default=None,
         description="time [s] in which PIC takes all but 1/e of the noise: the FLIP part of a step "
@@ -85,7 +85,7 @@ class FLIPChoice(Model):
 class XPICChoice(Model):
     """Keeps energy and drops noise, for the cost of order - 1 more transfers a step."""
 
-    type: Literal["xpic"]
+    type: Literal["xpic"] = "xpic"
     order: int = Field(default=2, ge=1, le=20, description="m: 1 is PIC, higher is nearer to FLIP")
 
     @property
@@ -96,9 +96,10 @@ class XPICChoice(Model):
 class APICChoice(Model):
     """Keeps linear and angular momentum."""
 
-    type: Literal["apic"]
+    type: Literal["apic"] = "apic"
     force: Literal["mls", "gradient"] = Field(
-        "mls", description="stress as part of the affine momentum (MLS-MPM), or along grad w"
+        default="mls",
+        description="stress as part of the affine momentum (MLS-MPM), or along grad w",
     )
 
     @property
@@ -109,7 +110,7 @@ class APICChoice(Model):
 class TPICChoice(Model):
     """As smooth as APIC, and for every basis."""
 
-    type: Literal["tpic"]
+    type: Literal["tpic"] = "tpic"
 
     @property
     def transfer(self):

@@ -314,11 +314,13 @@ def test_another_architecture_in_the_environment(monkeypatch, capfd):
     monkeypatch.setenv("TI_ARCH", "x64" if sys.platform != "darwin" else "arm64")
 
 
-def test_check_runs_nothing(tmp_path, monkeypatch, capfd):
-    """`check` seeds and plans, on stderr: particles, device, step, number of steps and outputs; no
-    folder is made.  A step above the limit is refused, here acoustic: 0.76 0.9 dx / (c + |v|) with
-    c^2 = 1.346 (nu = 0.3, E = rho) and |v| = 0.1414 is 0.0263; or warned of, where the scene asks
-    to have it as it is."""
+def test_check_shows_the_plan(tmp_path, monkeypatch, capfd):
+    """On stderr: particles, device, step, number of steps and outputs, and the time from its first
+    steps unless told not to; no folder is made.
+
+    A step above the limit is refused, here acoustic: 0.76 0.9 dx / (c + |v|) with c^2 = 1.346
+    (nu = 0.3, E = rho) and |v| = 0.1414 is 0.0263; or warned of, where the scene asks to have it as
+    it is.  The disks blow up with it, which is told too."""
     monkeypatch.chdir(tmp_path)
     words = ["--frames", "7", "check", str(LATTICE), "--set", "time.step=0.05"]
     assert cli.main(words) == 2
@@ -329,6 +331,11 @@ def test_check_runs_nothing(tmp_path, monkeypatch, capfd):
     assert "lower: 208 particles" in err
     assert "warning: time.step is 1.9 times the acoustic limit 0.0263 s (material rubber)" in err
     assert "about 70 steps to t = 3.5 s, 7 outputs after the start" in err
+    assert "warning: the run fails in its first steps: t = " in err
+    assert cli.main(["check", str(LATTICE)]) == 0
+    assert "\ntime: about " in capfd.readouterr().err
+    assert cli.main(["check", str(LATTICE), "--no-time"]) == 0
+    assert "first steps" not in capfd.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from mpm_taichi import Simulation, diagnostics, load_scene
+from mpm_taichi import Simulation, diagnostics, load_scene, recorders
 from mpm_taichi.errors import InputError, RunError
+from mpm_taichi.scene import Images
 from tests.command_line import SCENES
 
 SHORT = ("time.end=0.05", "output.every=0.02")
@@ -50,6 +51,38 @@ def test_a_run_shows_its_steps_and_repeats():
         assert (now.snapshot.position == x).all()
         assert now.snapshot.time == t
     assert list(again.frames()) == [again]  # where it is: at its end
+
+
+def test_functions_are_recorders_too():
+    """A plain function is called at the start and at each output, beside recorder objects and with
+    the same moment; what is neither is refused in words, before the first step."""
+    simulation, seen, times = Simulation(scene("time.end=0.006", "output.every=0.002")), Seen(), []
+    with pytest.raises(InputError, match=r"a recorder is a function of the simulation, .*got 7"):
+        simulation.run([7])
+    assert simulation.step_count == 0
+    simulation.run([seen, lambda now: times.append((now.time, now.step_count))])
+    assert times == [(time, step) for time, step, _ in seen.outputs]
+    assert [time for time, _ in times] == [0.0, 0.002, 0.004, 0.006]
+
+
+def test_a_notebook_shows_the_picture(tmp_path):
+    """`_repr_png_` is the picture that a run writes at this moment, byte by byte, also where the
+    scene writes none; the simulation goes on as if nobody had looked."""
+    words = ("time.end=0.006", "output.every=0.002", "output.images.size=100")
+    simulation, shown = Simulation(scene(*words)), None
+    for _ in simulation.frames():
+        shown = simulation._repr_png_()
+    style = simulation.scene.output.images
+    assert isinstance(style, Images)
+    recorder = recorders.Images(tmp_path, simulation, style)
+    recorder.record(simulation, is_output=True)
+    assert shown == (tmp_path / "frame_0000.png").read_bytes()
+    end, plain = simulation.snapshot.position, Simulation(scene("output.images=none", *words[:2]))
+    plain.run()
+    assert (plain.snapshot.position == end).all()
+    picture = plain._repr_png_()
+    assert picture is not None
+    assert picture.startswith(b"\x89PNG")
 
 
 def test_a_snapshot_is_of_its_moment():
