@@ -7,10 +7,21 @@ def add(parser) -> None:
     add_scene(parser)
     add_machine(parser)
     add_frames(parser)
+    parser.add_argument(
+        "--margin", action="store_true",
+        help="measure the longest stable step of the scene at its start (elastic laws, up to 20000 "
+        "particles, a minute or two)",
+    )  # fmt: skip
 
 
 def execute(options) -> int:
     scene = scene_of(options)
     from ..run import check
 
-    return check(scene, options, progress_console(options))
+    console = progress_console(options)
+    code = check(scene, options, console)
+    if options.margin:
+        from ..margin import margin
+
+        console.print(margin(scene), soft_wrap=True)
+    return code
