@@ -11,10 +11,21 @@ def add(parser) -> None:
         "--no-time", dest="time", action="store_false",
         help="leave out the time of the run, which takes its first steps to tell",
     )  # fmt: skip
+    parser.add_argument(
+        "--margin", action="store_true",
+        help="measure the longest stable step of the scene at its start (elastic laws, up to 20000 "
+        "particles, a minute or two)",
+    )  # fmt: skip
 
 
 def execute(options) -> int:
     scene = scene_of(options)
     from ..run import check
 
-    return check(scene, options, progress_console(options))
+    console = progress_console(options)
+    code = check(scene, options, console)
+    if options.margin:
+        from ..margin import margin
+
+        console.print(margin(scene), soft_wrap=True)
+    return code

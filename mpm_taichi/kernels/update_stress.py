@@ -99,9 +99,11 @@ def stress_share(
                     fastest = speed_squared
                 if rate_squared > steepest:
                     steepest = rate_squared
-    if ti.static(move):
-        ti.atomic_max(grid.speed_squared[None], fastest)
-        ti.atomic_max(grid.rate_squared[None], steepest)
+    if ti.static(move):  # on a GPU each particle comes here: few of them have to wait for another
+        if fastest > grid.speed_squared[None]:
+            ti.atomic_max(grid.speed_squared[None], fastest)
+        if steepest > grid.rate_squared[None]:
+            ti.atomic_max(grid.rate_squared[None], steepest)
 
 
 @ti.kernel
