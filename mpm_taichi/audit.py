@@ -82,6 +82,7 @@ class Books:
         self.first, self.last, self.columns = first, last, columns
         self.transfer, self.basis = simulation.solver.transfer, simulation.solver.basis
         self.is_audited = self.scene.output.audit
+        self.brought_in = simulation.solver.particles.brought_in[None]
         self.axes = "xyz"[: self.scene.dimension]
         kinetic = columns["kinetic_energy"]
         self.energy_scale = float(
@@ -103,9 +104,10 @@ class Books:
         return Line(name, start, end, supplied, end - start - supplied, scale, bound, note)
 
     def mass(self) -> Line:
-        start = float(self.first["mass"])
+        """Supplied is what was deleted at the border of the domain."""
+        start, deleted = float(self.first["mass"]), self._change("mass")
         now = float(self.simulation.solver.particles.to_numpy("m").sum())
-        return self.line("mass", start, now, 0.0, start, self.rounding * start)
+        return self.line("mass", start, now, deleted, start, self.rounding * start)
 
     def momentum(self) -> list[Line]:
         return [self._momentum(d, axis) for d, axis in enumerate(self.axes)]
@@ -113,7 +115,7 @@ class Books:
     def _momentum(self, d, axis) -> Line:
         name, time = f"momentum_{axis}", self.last["time"] - self.first["time"]
         supplied = self.first["mass"] * self.scene.gravity_vector[d] * time
-        note, scale = "", self.momentum_scale + abs(supplied)
+        note, scale = self._taken_out(), self.momentum_scale + abs(supplied)
         if self.is_audited:
             parts = {n: self._change(f"{n}_{axis}") for n in ("wall_impulse", "body_impulse")}
             supplied += sum(parts.values()) - self._change(f"cut_impulse_{axis}")
@@ -144,6 +146,8 @@ class Books:
         """Why angular momentum is only reported; nothing where it is kept."""
         scene = self.scene
         forces = scene.domain.rules or scene.body_force or any(scene.gravity_vector)
+        if self.brought_in:
+            return self._taken_out()
         if not self.transfer.moments:
             return f"{scene.method.transfer.type} does not keep it"
         if scene.domain.periodic:
@@ -181,8 +185,14 @@ class Books:
             for n, value in losses.items()
             if scale
         )
-        bound = ENERGY_BOUND * scale
-        return self.line("energy", start, end, supplied, scale, bound, f"losses: {told}")
+        bound = None if self.brought_in else ENERGY_BOUND * scale
+        note = f"losses: {told}" if bound else self._taken_out()
+        return self.line("energy", start, end, supplied, scale, bound, note)
+
+    def _taken_out(self) -> str:
+        if not self.brought_in:
+            return ""
+        return f"what particles lost at the border of the domain ({self.brought_in}) is not counted"
 
     def _change(self, name) -> float:
         return float(self.last[name] - self.first[name])

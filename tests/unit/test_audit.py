@@ -99,6 +99,15 @@ def test_without_the_counts_walls_are_reported(done):
         assert "output.audit" in line.note
 
 
+def test_what_leaves_the_domain_takes_momentum_with_it(done, monkeypatch):
+    """Deleted or clamped particles: only the mass is judged, and it is said why."""
+    count = {None: 3}
+    monkeypatch.setattr(done.simulation.solver.particles, "brought_in", count)
+    lines = audit(done.simulation, done.folder / "history.csv")
+    assert [line.name for line in lines if line.verdict != "reported"] == ["mass"]
+    assert all("border" in line.note for line in lines if line.name not in ("mass", "volume"))
+
+
 def test_strict_turns_a_failing_line_into_exit_code_1(done, monkeypatch, capsys):
     """The results stay, and the status is done."""
     bad = Line("energy", 1.0, 2.0, 0.0, 1.0, 1.0, 0.01)
