@@ -2,8 +2,8 @@
 
 CASES has every kind of basis and of transfer in 2D, and the first methods in 3D.  ALL_CASES, for
 the parity with the twin, has every basis and every transfer in 2D, every kind of both in 3D, and
-all pairs in a campaign.  The methods of the first scenes and one of each kind in 2D are in the fast
-tier."""
+all pairs in a campaign.  The methods of the first scenes and one of each kind, in 2D, are in the
+fast tier."""
 
 import pytest
 
@@ -38,7 +38,7 @@ PAIRS = [(basis, transfer) for basis in BASES for transfer in TRANSFERS if works
 
 def _case(dim, basis, transfer, *marks):
     pair = (basis, transfer)
-    if not (pair in FIRST or (dim == 2 and pair in KINDS)):
+    if dim == 3 or pair not in [*FIRST, *KINDS]:
         marks = (pytest.mark.slow, *marks)
     return pytest.param(
         dim, basis, transfer, id=f"{dim}D-{basis.name}-{transfer.__name__}", marks=marks

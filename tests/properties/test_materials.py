@@ -45,7 +45,7 @@ WITHIN = {
 """Middle and width of the stretches where a law stores all work: stress follows from energy."""
 
 each_precision = pytest.mark.parametrize("precision", PRECISIONS, scope="module")
-each_dim = pytest.mark.parametrize("dim", [2, 3])
+each_dim = pytest.mark.parametrize("dim", [2, pytest.param(3, marks=pytest.mark.slow)])
 
 
 def together(law):
@@ -118,6 +118,7 @@ def test_turning_changes_nothing(rng, material, dim):
         assert np.abs(values - values[0]).max() <= 1e-11 * np.abs(values).max()
 
 
+@pytest.mark.slow
 @each(LAWS + VISCOUS)
 def test_plane_strain_is_space_without_a_third_stretch(rng, material):
     """The same random walk in 2D and, with nothing along z, in 3D: stress, energies, volume and
@@ -249,6 +250,7 @@ def test_twin_gives_the_same(rng, material, dim):
         assert np.abs(ours[name] - values).max() <= 1e-12 * np.abs(values).max(), name
 
 
+@pytest.mark.slow
 @together("von_mises")
 def test_extension_beyond_yield(rng):
     """Extension e = (a, -a, 0) at constant volume, in one step or in many: tau_1 - tau_3 by hand,
@@ -265,6 +267,7 @@ def test_extension_beyond_yield(rng):
         assert np.sqrt(3) * found.tau[-1, 0, 0, 0] == pytest.approx(Y + h * k, rel=1e-12)
 
 
+@pytest.mark.slow
 @together("drucker_prager")
 @pytest.mark.parametrize("corrected", [True, False])
 def test_opened_sand_has_to_close(corrected):
@@ -284,6 +287,7 @@ def test_opened_sand_has_to_close(corrected):
     assert found.J[:, 0] == pytest.approx(J, rel=1e-12)
 
 
+@pytest.mark.slow
 @together("drucker_prager")
 def test_cohesion_and_cones():
     """Both cones give Mohr-Coulomb's (s1 - s3) / 2 = C cos phi - (s1 + s3) / 2 sin phi: the one in

@@ -284,6 +284,7 @@ def test_kinetic_energy_at_the_end():
     assert kinetic.value(end) == pytest.approx(0.49625, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_level_that_fails(strip, tmp_path, monkeypatch, capfd):
     """Its row has the first sentence of the failure, and the other levels run."""
     start = converge._start
@@ -305,6 +306,7 @@ def test_a_level_that_fails(strip, tmp_path, monkeypatch, capfd):
     assert "does not converge: the level before the finest failed" in out
 
 
+@pytest.mark.slow
 def test_every_level_fails(strip, tmp_path, capfd):
     """A bar that flies out of the domain: exit code 1, and the table says why."""
     scene = strip(*FREE, ("velocity: [20, 0]", "velocity: [-500, 0]"))

@@ -61,8 +61,8 @@ def test_mass_and_momentum(living, rng, dim, basis, transfer):
         (2, QuadraticBSpline, APIC),
         (2, GIMP, APIC),
         (2, CubicBSpline, MLS),
-        (3, QuadraticBSpline, MLS),
-        (3, QuadraticBSpline, APIC),
+        pytest.param(3, QuadraticBSpline, MLS, marks=pytest.mark.slow),
+        pytest.param(3, QuadraticBSpline, APIC, marks=pytest.mark.slow),
     ],
 )
 def test_spinning_ball_keeps_angular_momentum(living, rng, dim, basis, transfer):

@@ -87,6 +87,7 @@ def test_walls_mirror(fast, rng, rule):
     assert (on_wall == 0).all() if rule is Sticky else (on_wall[:, 0] == 0).all()
 
 
+@pytest.mark.slow
 def test_a_wall_that_lets_go(fast, rng):
     """Nodes of a separate wall: where the material presses they are those of a slip wall, where it
     moves away those of no wall at all."""
