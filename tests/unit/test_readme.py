@@ -34,7 +34,7 @@ def commands() -> list[list[str]]:
         found.append([word for word in words if not word.startswith("[")])
         if any(word.startswith("[") for word in words):
             found.append([word.strip("[]").replace("NAME", "snow") for word in words])
-    return [[PLACES.get(word, word) for word in words] for words in found]
+    return [[str(PLACES.get(word, word)) for word in words] for words in found]
 
 
 @pytest.fixture
