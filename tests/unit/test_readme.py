@@ -29,12 +29,13 @@ def commands() -> list[list[str]]:
     lines = [line for line in blocks.splitlines() if line.startswith(CALL)]
     lines += [code for code in re.findall(r"`([^`\n]+)`", TEXT) if code.startswith(f"{CALL} ")]
     found = []
-    for line in dict.fromkeys(lines):
+    for line in lines:
         words = shlex.split(line, comments=True)[3:]
         found.append([word for word in words if not word.startswith("[")])
         if any(word.startswith("[") for word in words):
             found.append([word.strip("[]").replace("NAME", "snow") for word in words])
-    return [[str(PLACES.get(word, word)) for word in words] for words in found]
+    named = (tuple(str(PLACES.get(word, word)) for word in words) for words in found)
+    return list(map(list, dict.fromkeys(named)))
 
 
 @pytest.fixture
@@ -47,8 +48,8 @@ def beside_the_scenes(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("number", range(len(EXAMPLES)))
 def test_the_python_of_the_readme_runs(beside_the_scenes, capfd, number):
-    """Each block by itself, word for word; each prints something, and what a comment after `print`
-    says an error is."""
+    """Each block by itself, word for word; each prints something, and the error that a comment
+    promises."""
     assert len(EXAMPLES) >= 3
     exec(compile(EXAMPLES[number], f"README.md, block {number}", "exec"), {"__name__": "readme"})
     out = capfd.readouterr().out
