@@ -84,4 +84,4 @@ def test_the_options_of_the_readme_exist():
         text = TEXT.split(f"\n{section}\n")[1].split("\n## ")[0]
         for code in re.findall(r"`([^`\n]+)`", text):
             if not code.startswith(("sudo", "pip", "gmsh")):
-                assert set(re.findall(r"--[a-z-]+", code)) <= known, code
+                assert set(re.findall(r"--[a-z][a-z0-9-]*", code)) <= known, code
