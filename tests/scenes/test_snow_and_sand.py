@@ -7,7 +7,6 @@ import pytest
 from mpm_taichi import Simulation, load_scene
 from mpm_taichi.diagnostics import momentum
 from mpm_taichi.materials import Snow
-from mpm_taichi.report import Report
 from tests.command_line import SCENES
 
 
@@ -54,7 +53,7 @@ def test_snowball_flies_free_and_breaks_within_the_limits_of_its_law():
     falling = simulation.snapshot.position[:, 1] < 0.35
     print(f"{100 * np.mean(falling):.1f} % of the snow has fallen off")
     assert 0.01 < np.mean(falling) < 0.9
-    warnings = Report(simulation, []).content("done")["warnings"]
+    warnings = simulation.warnings()
     assert any("hardening of snow capped" in words for words in warnings), warnings
 
 
@@ -83,7 +82,7 @@ def test_squares_keep_momentum_and_volume():
     assert np.median(water) == pytest.approx(1, abs=0.02)
     assert np.quantile(water, 0.02) > 0.98
     assert np.mean(snow > 3) < 0.02
-    warnings = Report(simulation, []).content("done")["warnings"]
+    warnings = simulation.warnings()
     assert any("tension of a fluid cut off" in words for words in warnings), warnings
 
 

@@ -20,7 +20,7 @@ from tests.command_line import SCENES, environment, history, in_words, mpm_taich
 LATTICE = SCENES / "two_disks_lattice.yaml"
 SHORT = ("--set", "time.end=0.05", "--set", "output.images=none")
 TINY = ("--set", "time.end=0.002", "--set", "output.every=0.001", "--set", "output.images=none")
-STAGES = {"sort", "whole_steps", "update_stress"}
+STAGES = {"sort", "whole_steps", "update_stress", "guard"}
 """Of a scene with few particles."""
 
 
@@ -341,24 +341,34 @@ def test_check_shows_the_plan(tmp_path, monkeypatch, capfd):
 
 
 def test_a_particle_that_leaves_ends_the_run(tmp_path, capfd):
-    """A disk that flies out on the left, at 1 m/s: its first column of particles, at 0.0125 m, is
-    out after 13 steps of 0.001 s.  Exit code 1; the message names particle, body, material, step
-    and position, and says what to do; the folder holds the run up to there."""
+    """A disk that flies out on the left, at 1.04 m/s: its first column of particles, at 0.0125 m,
+    is out after 13 steps of 0.001 s, and, tried again with half of that, after 25.  Exit code 1;
+    the message names particle, body, material, step and position, and says what to do; the folder
+    holds the second attempt up to there."""
     folder = tmp_path / "out"
-    words = [str(LATTICE), *SHORT, "-q", "-o", str(folder), "--set", "bodies[0].velocity=[-1, 0]"]
+    words = [
+        str(LATTICE),
+        *SHORT,
+        "-q",
+        "-o",
+        str(folder),
+        "--set",
+        "bodies[0].velocity=[-1.04, 0]",
+    ]
     assert cli.main(words) == 1
     out, err = capfd.readouterr()
     assert out == ""
     assert in_words(err)
     for words in (
-        "t = 0.013 s, step 13: particle 0 (body lower, material rubber) has left the domain",
+        "t = 0.0125 s, step 25: particle 0 (body lower, material rubber) has left the domain",
         "[1.0, 1.0]: it is at [-0.0005, 0.1", "walls (domain.walls",
     ):  # fmt: skip
         assert words in err
     content = json.loads((folder / "run.json").read_text())
-    assert (content["status"], content["steps"]) == ("failed", 13)
+    assert (content["status"], content["steps"]) == ("failed", 25)
+    assert [failure["step"] for failure in content["failures"]] == [13, 25]
     assert "particle 0 (body lower" in content["error"]
-    assert history(folder)["step"].tolist() == list(range(13))
+    assert history(folder)["step"].tolist() == list(range(25))
 
 
 def test_a_step_that_gets_nowhere(tmp_path, capfd):

@@ -222,7 +222,7 @@ def test_a_run_without_a_solution_writes_no_errors(tmp_path):
     path.write_text(path.read_text().replace("exact: {'displacement': [0, 0]}", ""))
     assert cli.main([str(path), "-q", "-o", str(tmp_path / "out")]) == 0
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [
-        "history.csv", "run.json", "scene.yaml",
+        "history.csv", "run.json", "scene.yaml", "snapshots",
     ]  # fmt: skip
     assert "errors" not in json.loads((tmp_path / "out" / "run.json").read_text())
 

@@ -10,6 +10,7 @@ import pytest
 from taichi._snode.fields_builder import FieldsBuilder
 
 from mpm_taichi import Simulation, cli, free_memory, load_scene, memory, report, sampling, snapshot
+from mpm_taichi.attempts import Attempts
 from mpm_taichi.errors import InputError
 from mpm_taichi.memory import planned_memory, size
 from mpm_taichi.seeding import expected_counts
@@ -232,11 +233,11 @@ def test_a_refusal_uses_the_words_of_the_scene(tmp_path, monkeypatch):
 
 def test_a_typing_error_is_refused_before_particles_are_made(tmp_path, monkeypatch):
     """A zero too many makes 1.1e8 particles of a million: refused by their expected number, before
-    each has a place (V / h^3, here one less by rounding)."""
+    each has a place (V / h^3)."""
     scene = scene_of(tmp_path, 3, "basis: quadratic", "f64", cells=600)
     free(monkeypatch, memory=2**33)
     monkeypatch.delattr(sampling.Lattice, "points")
-    with pytest.raises(InputError, match=r"107,999,999 particles of 484 B"):
+    with pytest.raises(InputError, match=r"108,000,000 particles of 484 B"):
         Simulation(scene)
 
 
@@ -332,7 +333,8 @@ def test_check_and_report_say_it(tmp_path, capfd):
         "12.5 KiB for output"
     )
     scene = load_scene(path)
-    content = report.Report(Simulation(scene), []).content("running")
+    attempts = Attempts(Simulation(scene), tmp_path, None)
+    content = report.Report(attempts, []).content("running")
     assert json.loads(json.dumps(content))["memory"] == planned_memory(scene, [32], "f64").summary()
 
 
