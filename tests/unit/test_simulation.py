@@ -167,6 +167,24 @@ def test_warnings_count_what_a_reader_should_know():
     assert found[empty] > 0
 
 
+def test_a_given_step_is_shortened_as_bodies_get_faster():
+    """0.0262 s is just below the acoustic limit at the start, 0.76 0.9 dx / (c + |v|) with
+    c + |v| = 1.160 + 0.141 m/s.  Falling by 1 m/s^2 the disks gain 0.026 m/s in a step: the third
+    and all later steps are shortened to the limit of their moment, or grow back slowly where a
+    disk was slowed; counted."""
+    simulation = Simulation(
+        scene("time.step=0.0262", "gravity=[0, -1]", "time.end=0.25", "output.every=0.25")
+    )
+    simulation.run()
+    rule = simulation.time_step
+    limit = rule.limits(rule.motion)[0]
+    assert limit.name == "acoustic"
+    assert simulation.last_dt <= limit.seconds * 1.03 < 0.9 * 0.0262
+    assert rule.shortened >= simulation.step_count - 2 and rule.counts["acoustic"] > 0
+    words = "steps shorter than time.step, since a limit asked for it"
+    assert simulation.warnings()[words] == rule.shortened
+
+
 def test_too_many_threads():
     """A count of threads that no machine has would overflow loop counters: refused in words."""
     with pytest.raises(InputError, match=r"--threads: at most 1024 \(got 5000000\)"):
