@@ -12,8 +12,8 @@ import numpy as np
 
 from .history_table import read_history
 
-ENERGY_BOUND = 0.01
-"""Of the energy scale."""
+MASS_BOUND, ENERGY_BOUND = 1e-12, 0.01
+"""Of mass and energy scale: particles keep their masses."""
 
 WORK = ("work_of_gravity", "work_of_body_force", "work_of_walls")
 
@@ -107,7 +107,7 @@ class Books:
         """Supplied is what was deleted at the border of the domain."""
         start, deleted = float(self.first["mass"]), self._change("mass")
         now = float(self.simulation.solver.particles.to_numpy("m").sum())
-        return self.line("mass", start, now, deleted, start, self.rounding * start)
+        return self.line("mass", start, now, deleted, start, MASS_BOUND * start)
 
     def momentum(self) -> list[Line]:
         return [self._momentum(d, axis) for d, axis in enumerate(self.axes)]

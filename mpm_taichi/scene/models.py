@@ -244,7 +244,7 @@ class Output(Model):
     audit: bool = Field(
         default=False,
         description="count the impulses of walls and the energy that each stage of the step loses, "
-        "for some 20 to 40 % more time; on --device cpu",
+        "for a quarter (FLIP) to three quarters (APIC in 3D) more time; on --device cpu",
     )
 
 

@@ -11,7 +11,7 @@ from .test_stages import DT, three_steps
 CAMPAIGN = [pytest.mark.slow, pytest.mark.campaign]
 CASES = [
     (2, "QuadraticBSpline", "MLS", "usl"),
-    pytest.param(2, "QuadraticBSpline", "FLIPBlend", "musl", marks=pytest.mark.slow),
+    pytest.param(2, "QuadraticBSpline", "FLIPBlend", "musl", marks=CAMPAIGN),
     pytest.param(2, "GIMP", "APIC", "usf", marks=CAMPAIGN),
     pytest.param(2, "QuadraticBoundary", "TPIC", "usl", marks=CAMPAIGN),
     pytest.param(3, "Linear", "FLIP", "usl", marks=CAMPAIGN),
