@@ -39,7 +39,7 @@ bodies:
     material: other
     shape: {{type: box, min: {low2}, max: {high2}}}
     particles: {{type: lattice, per_cell: 2}}
-output: {{every: 0.05, images: none}}
+output: {{every: 0.05, images: none, audit: {audit}}}
 """
 
 
@@ -48,7 +48,7 @@ def scene(tmp_path, basis, transfer, update, laws, precision="f64", step="auto",
     values = {
         "size": [1.0] * dim, "cells": [8] * dim, "walls": "slip", "gravity": [0.3, -9.8, 0.1][:dim],
         "low": [0.15] * dim, "high": [0.6] * dim, "low2": [0.25] + [0.65] * (dim - 1),
-        "high2": [0.7] + [0.9] * (dim - 1), "velocity": ["2*Y", "1 - 3*X", "Y"][:dim], "force": "",
+        "high2": [0.7] + [0.9] * (dim - 1), "velocity": ["2*Y", "1 - 3*X", "Y"][:dim], "force": "", "audit": "false",
     }  # fmt: skip
     values |= more
     text = SCENE.format(
@@ -76,6 +76,7 @@ def drawn(tmp_path, rng, dim):
             "update": rng.choice(("usl", "usl", "musl", "usf")), "dim": dim,
             "precision": rng.choice(("f32", "f64")), "walls": rng.choice(WALLS),
             "force": rng.choice(("", "body_force: [sin(3*X), t]")) if dim == 2 else "",
+            "audit": rng.choice(("false", "true")),
         }  # fmt: skip
         try:
             found = scene(tmp_path, **parts)
