@@ -5,6 +5,7 @@ from pathlib import Path
 
 from . import checkpoints
 from .errors import InputError, MotionError
+from .run_folder import read_report
 from .scene import load_scene
 from .simulation import Simulation
 
@@ -15,7 +16,7 @@ def replay(folder: Path, console) -> int:
     path = folder / "trouble" / "trouble.json"
     try:
         told = json.loads(path.read_text(encoding="utf-8"))
-        report = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+        report = read_report(folder)
         start, reduction = told["from"], told["steps_shortened_to"]
         machine = report["device"], report["precision"], report["threads"]
     except OSError:

@@ -1,6 +1,5 @@
 """Go on with a run that was interrupted, or killed."""
 
-import json
 import time
 from pathlib import Path
 
@@ -9,6 +8,7 @@ from .attempts import Attempts
 from .errors import InputError
 from .identity import differences, identity
 from .run import announce, carry_out
+from .run_folder import read_report
 from .scene import dump_scene, load_scene
 from .simulation import Simulation
 
@@ -18,7 +18,7 @@ def resume(options, console) -> int:
     never been interrupted, to the last bit.  Refused for another scene, version or precision,
     unless forced.  Returns the exit code."""
     began, folder = time.perf_counter(), options.resume
-    report = _report(folder)
+    report = read_report(folder)
     checkpoint = checkpoints.newest(
         folder / "checkpoints",
         warn=lambda text: console.print(f"warning: {text}; going on from the one before"),
@@ -28,7 +28,7 @@ def resume(options, console) -> int:
             f"--resume {folder}: the run has no checkpoint; the first is written after a minute of "
             "computing (output.checkpoints), or when the run is interrupted: start it anew"
         )
-    if report["status"] == "done":
+    if report.get("status") == "done":
         raise InputError(f"--resume {folder}: the run is done")
     before = checkpoint.meta["identity"]
     simulation = Simulation(
@@ -57,20 +57,6 @@ def resume(options, console) -> int:
     )
     attempts = Attempts(simulation, folder, console, checkpoint)
     return carry_out(attempts, options, console, began, report)
-
-
-def _report(folder: Path) -> dict:
-    """run.json of a run folder."""
-    path = folder / "run.json"
-    try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError:
-        raise InputError(f"--resume {folder}: this is no run folder (no run.json)") from None
-    except ValueError:
-        raise InputError(f"{path}: is damaged") from None
-    if not isinstance(content, dict) or "status" not in content:
-        raise InputError(f"{path}: is no report of a run")
-    return content
 
 
 def _scene(options, folder: Path):

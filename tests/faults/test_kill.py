@@ -190,7 +190,7 @@ def test_nothing_to_go_on_with(tmp_path):
     run = tmp_path / "run"
     run.mkdir()
     cases = [
-        (("--resume", tmp_path / "none"), "this is no run folder (no run.json)"),
+        (("--resume", tmp_path / "none"), "is no folder of a run; name the folder of one"),
         (("replay", run), "holds no run that failed (no trouble/trouble.json)"),
         (("--resume", run, "-o", "x"), "leave out -o, --overwrite"),
         (("--resume", run, "--frames", "3"), "leave out --frames"),
@@ -202,7 +202,7 @@ def test_nothing_to_go_on_with(tmp_path):
         assert refused.returncode == 2, refused.stderr
         assert text in refused.stderr
     (run / "run.json").write_text("{")
-    assert "is damaged" in mpm_taichi("--resume", run).stderr
+    assert "run.json: cannot be read" in mpm_taichi("--resume", run).stderr
     (run / "run.json").write_text('{"status": "running"}')
     refused = mpm_taichi("--resume", run)
     assert refused.returncode == 2

@@ -48,7 +48,8 @@ def scene(tmp_path, basis, transfer, update, laws, precision="f64", step="auto",
     values = {
         "size": [1.0] * dim, "cells": [8] * dim, "walls": "slip", "gravity": [0.3, -9.8, 0.1][:dim],
         "low": [0.15] * dim, "high": [0.6] * dim, "low2": [0.25] + [0.65] * (dim - 1),
-        "high2": [0.7] + [0.9] * (dim - 1), "velocity": ["2*Y", "1 - 3*X", "Y"][:dim], "force": "", "audit": "false",
+        "high2": [0.7] + [0.9] * (dim - 1), "velocity": ["2*Y", "1 - 3*X", "Y"][:dim], "force": "",
+        "audit": "false",
     }  # fmt: skip
     values |= more
     text = SCENE.format(
