@@ -44,7 +44,9 @@ def row(case, scheme, seed: int, quick: bool) -> dict:
         "transfer": scheme.transfer, "stress_update": scheme.order,
         "precision": scheme.precision, "dimension": case.dimension,
         "status": case.status(scheme, found),
-        "figures": [f._asdict() | {"holds": bool(f.holds), "value": float(f.value)} for f in found.figures],
+        "figures": [
+            f._asdict() | {"holds": bool(f.holds), "value": float(f.value)} for f in found.figures
+        ],
         "told": "; ".join(map(str, found.figures)), "clamps": found.clamps, "stopped": stopped,
         "drawn": draw.said, "seconds": time.time() - began,
     }  # fmt: skip

@@ -94,8 +94,10 @@ def alone(scheme, places, material, dt=None):
     h, bodies = 0.5, []
     for k, place in enumerate(places):
         low = SPACING * np.array(divmod(k, SIDE)) + SPACING // 2
-        moved = [f"{at - h / 2!r} - {STRAIN} * ({axis} - {x + h / 2!r})"
-                 for at, axis, x in zip(place.tolist(), "XY", low.tolist(), strict=True)]  # fmt: skip
+        moved = [
+            f"{at - h / 2!r} - {STRAIN} * ({axis} - {x + h / 2!r})"
+            for at, axis, x in zip(place.tolist(), "XY", low.tolist(), strict=True)
+        ]
         bodies.append(body(k, low, low + h, displacement=moved))
     steps = {} if dt is None else {"step": float(dt), "enforce": False}
     end = STEPS * (dt or 0.1)
