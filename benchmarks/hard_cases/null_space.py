@@ -1,0 +1,68 @@
+"""H20: velocities that nodes do not see, v in the null space of P2G.
+
+Nodes get no momentum: PIC and APIC lose all of it in one step, FLIP keeps it, and a blend keeps the
+part alpha^(2 n) of the energy after n steps (hard_cases.md, H20)."""
+
+import numpy as np
+from experiments import schemes
+
+from mpm_taichi.reference import bases
+from mpm_taichi.scene import Method
+
+from .case import Case, Draw, Figure, Found
+from .scenes import body, clamps, simulate, solid, vector
+
+EDGE, PER_CELL, CELLS, STEPS = 4, 2, 12, 10
+
+
+def measure(scheme, draw: Draw) -> Found:
+    shift = draw.offsets(1, 2)[0]
+    low = np.indices([EDGE * PER_CELL] * 2).reshape(2, -1).T / PER_CELL + CELLS // 3
+    h = 1 / PER_CELL
+    v = draw.rng.normal(size=(len(low), 2))
+    null = null_vectors(low + h / 2 + shift, scheme)
+    v = null @ (null.T @ v)
+    bodies = [
+        body(k, x, x + h, PER_CELL, displacement=vector(shift), velocity=vector(w))
+        for k, (x, w) in enumerate(zip(low, v, strict=True))
+    ]
+    time = {"step": 1e-3}
+    simulation = simulate(scheme, [CELLS] * 2, bodies, solid(), 1.0, time=time)
+    start = (simulation.snapshot.velocity**2).sum()
+    steps = 1 if scheme.transfer in ("pic", "apic", "mls") else STEPS
+    for _ in range(steps):
+        simulation.step()
+    ratio = (simulation.snapshot.velocity**2).sum() / start
+    if scheme.transfer == "flip":
+        figure = Figure("|KE ratio - 1|", abs(ratio - 1), 1e-12)
+    elif scheme.transfer == "flip 0.99":
+        figure = Figure("|KE ratio - a^(2n)|", abs(ratio - 0.99 ** (2 * STEPS)), 1e-9)
+    else:
+        figure = Figure("KE ratio", ratio, 1e-12)
+    return Found([figure], clamps(simulation))
+
+
+def null_vectors(x, scheme) -> np.ndarray:
+    """[particles, n]: v with sum_p w_ip v_p = 0 for all nodes i, the particles having one mass."""
+    twin = getattr(bases, Method.model_validate(scheme.method).basis_class.__name__)
+    one = []
+    for axis in range(2):
+        first = twin.first(x[:, axis])
+        w = twin.weights(x[:, axis] - first, 0.5 / PER_CELL)
+        rows = np.zeros((CELLS + 4, len(x)))
+        for k, weight in enumerate(w):
+            rows[first.astype(int) + k, np.arange(len(x))] += weight
+        one.append(rows)
+    P2G = (one[0][:, None] * one[1][None]).reshape(-1, len(x))
+    _, s, V = np.linalg.svd(P2G)
+    return V[(s > 1e-12 * s[0]).sum() :].T
+
+
+CASE = Case(
+    "H20", "Null space", measure,
+    schemes(
+        "linear: pic, flip, flip 0.99; gimp: flip, apic",
+        "quadratic: pic, flip, flip 0.99, apic, mls; cubic: flip, mls",
+    ),
+    schemes("quadratic: flip 0.99, mls"), precisions=("f64",),
+)  # fmt: skip
