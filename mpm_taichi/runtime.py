@@ -37,8 +37,14 @@ def real_type() -> np.dtype:
     return np.dtype(to_numpy_type(impl.get_runtime().default_fp))
 
 
+ends = 0
+"""How often all fields have gone, since the program began."""
+
+
 def stop() -> None:
     """All fields are gone, and their memory is free."""
+    global ends
+    ends += 1
     ti.reset()
 
 
@@ -53,6 +59,7 @@ def start(device: str = "cpu", precision: str = "f64", threads: int = 1, **optio
         )
     if device == "metal" and precision == "f64":
         raise InputError("--device metal has no 64-bit floats: take --precision f32")
+    stop()
     if device == "vulkan" or not os.environ.get("DISPLAY"):
         os.environ.setdefault("EGL_PLATFORM", "surfaceless")
     try:

@@ -9,7 +9,7 @@ import numpy as np
 from . import runtime, stages
 from .at_outputs import as_recorder
 from .bodies import body_points
-from .errors import InputError, MotionError
+from .errors import InputError, MotionError, RunError
 from .kernels.guard import guard
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
@@ -74,6 +74,7 @@ class Simulation:
         if self.threads > MOST_THREADS:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
         runtime.start(device, self.precision, self.threads)
+        self._ends = runtime.ends
         stages.reset()
         bodies = [body_points(scene, index, p.x, p.V0) for index, p in enumerate(points)]
         self.initial_position = np.concatenate([body.undeformed for body in bodies])
@@ -88,7 +89,7 @@ class Simulation:
         )
         self.time_step.reduction = reduction
         try:
-            self.solver = Solver(
+            self._solver = Solver(
                 bodies, scene.domain.cells, scene.cell_size, method.basis_class,
                 method.transfer_class, scene.domain.rules, scene.gravity_vector,
                 mass_cutoff=method.mass_cutoff, periodic=scene.domain.periodic,
@@ -149,6 +150,17 @@ class Simulation:
         if number >= self.outputs.count:
             return longest
         return even_step(self.outputs.time(number + 1) - time, longest)
+
+    @property
+    def solver(self) -> Solver:
+        """RunError once another simulation has taken its fields: to touch them would end the
+        process."""
+        if runtime.ends != self._ends:
+            raise RunError(
+                "this Simulation has ended: another was started in the same process, and Taichi "
+                "has one set of fields. Read what you need of one before you start the next"
+            )
+        return self._solver
 
     @property
     def next_output(self) -> float:

@@ -144,6 +144,19 @@ def test_a_number_that_is_none_ends_the_run():
     assert np.isfinite(simulation.sums["kinetic_energy"]).all()
 
 
+def test_one_after_the_other():
+    """Taichi has one set of fields: what reads those of a simulation that another has ended is
+    told so, where it would crash the process.  What was read before stays."""
+    first = Simulation(scene())
+    snapshot = first.snapshot
+    second = Simulation(scene())
+    for ended in (first.advance, first.warnings, first.state, lambda: first.sums):
+        with pytest.raises(RunError, match="this Simulation has ended: another was started"):
+            ended()
+    assert first.snapshot is snapshot
+    second.step()
+
+
 def test_a_speed_beyond_all_bounds():
     """|v|^2 of 1e200 m/s overflows: an automatic step would be 0.  RunError, not a division."""
     with np.errstate(over="ignore"), pytest.raises(RunError, match="time step would be 0 s"):

@@ -108,7 +108,7 @@ def test_nothing_is_overwritten_unasked(run, tmp_path, capfd):
 def test_wrong_words(run, tmp_path, capfd):
     """Each a sentence and exit code 2."""
     for words, said in (
-        ([run], "into what? --mp4, --gif, --webp"),
+        ([run], "into what? --html, --mp4, --gif, --webp"),
         ([run, "--vtk", "--fps", "9"], "--fps: is for --mp4, --gif and --webp"),
         ([tmp_path, "--gif"], "has no run.json, so it is no run"),
         ([run, "--gif", "--fps", "51"], "a GIF has at most 50 pictures a second"),
