@@ -3,6 +3,8 @@
 Exact: F = I, the center of mass moves by v t, and the kinetic energy stays.  Weights sum to 1 and
 their gradients to 0 but for rounding, so that errors are n u after n steps (hard_cases.md, H1)."""
 
+from typing import Any
+
 import numpy as np
 from experiments import schemes
 
@@ -20,7 +22,7 @@ def measure(scheme, draw: Draw) -> Found:
     places = np.stack(np.meshgrid(range(3), range(3)), axis=-1).reshape(-1, 2)[:8] * APART + 2
     end, bodies = WAY / (1.7 * SPEED), []
     for k, (low, shift) in enumerate(zip(places + WAY * (v < 0), shifts, strict=True)):
-        moved = {"displacement": vector(shift), "velocity": vector(v)}
+        moved: dict[str, Any] = {"displacement": vector(shift), "velocity": vector(v)}
         bodies.append(body(k, low, low + EDGE, **moved))
     simulation = simulate(scheme, [3 * APART + WAY + 4] * 2, bodies, solid(), end)
     weight = simulation.snapshot.mass[:, None]

@@ -50,7 +50,7 @@ def measure(scheme, draw: Draw) -> Found:
         rest, riding = u.reshape(8, 2, count, 2).swapaxes(0, 1)
         off = ((riding - rest) ** 2).sum(axis=-1).mean(axis=-1)
         worst = max(worst, np.sqrt(off.max()) / AMPLITUDE)
-        growth = max(growth, (sum(energies(now)) / first).max())
+        growth = max(growth, np.max(sum(energies(now)) / first))
     mass = by_body(simulation, simulation.snapshot.mass)
     assert np.ptp(mass) < 1e-6 * mass.max()
     return Found(

@@ -6,7 +6,7 @@ With M_d = d lam + 2 mu, and H_max and D^-1 those of the basis (hard_cases.md, c
     APIC       dt <= sqrt(2 rho / (M_d (H_max - D^-1 / 2)))
     MLS        dt <= sqrt(4 rho / (M_d D^-1)) = 2 / w
 
-At 0.98 of it a strain of 1e-3 stays below 1 / sqrt(1 - 0.98^2) = 5.03 times its start, which an
+At 0.98 of it a small strain stays below 1 / sqrt(1 - 0.98^2) = 5.03 times its start, which an
 oscillator reaches, for 1e4 steps; at 1.02 that of the worst place grows tenfold; and an automatic
 step is no longer.  Clamping or damping cannot satisfy both sides.  Linear: no limit above zero, and
 the automatic step must say so."""
@@ -22,7 +22,9 @@ from .case import Case, Draw, Figure, Found
 from .scenes import body, clamps, simulate, solid
 
 SPACING, SIDE = 8, 8  # cells from one to the next; particles along an axis
-STRAIN = 1e-3
+STRAIN = 1e-5
+"""The bounds are those of the linear motion, which 0.98 of the limit amplifies by 25 times what the
+stiffness changes: at 1e-3 a neo-Hookean particle of MLS reached 5.09 instead of 5.03."""
 STEEPEST = {"gimp": 28 / 3, "quadratic": 6.0, "cubic": 3.14}
 INVERSE_MOMENT = {"quadratic": 4.0, "cubic": 3.0}
 STEPS = 10_000
@@ -72,7 +74,7 @@ def of_material(scheme, places, nu):
     largest = max(strains(below).max() for _ in below.frames())
     figures.append(Figure("growth at 0.98", largest, 1 / np.sqrt(1 - 0.98**2)))
     counts = clamps(below)  # before the next simulation, which ends this one
-    above, grown = alone(scheme, places, material, 1.02 * longest), 0.0
+    above, grown = alone(scheme, places, material, 1.02 * longest), np.zeros(1)
     try:
         for _ in above.frames():
             grown = np.maximum(grown, strains(above)[::2])

@@ -1,6 +1,6 @@
 """Scenes of hard cases: cells of edge 1, density 1, wave speed 1, unless a case says otherwise."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ def body(name, low, high, per_cell: int = 2, **keys) -> dict[str, Any]:
     return made | keys
 
 
-def vector(values: Sequence[Any]) -> list[str]:
+def vector(values: Iterable[Any]) -> list[str]:
     """Numbers or formulas as a scene takes them."""
     return [value if isinstance(value, str) else repr(float(value)) for value in values]
 
