@@ -9,6 +9,7 @@ import numpy as np
 from . import runtime, stages
 from .at_outputs import as_recorder
 from .bodies import body_points
+from .cautions import cautions
 from .errors import InputError, MotionError, RunError
 from .kernels.guard import guard
 from .kernels.sums import sums
@@ -22,7 +23,7 @@ from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
 from .time_step import Motion, TimeStep
-from .trouble import fault, in_words, particle_values
+from .trouble import gone_outside, gone_wrong
 
 PARTICLES_PER_THREAD = 2048
 """Below this a second thread costs more in hand-offs than it saves."""
@@ -216,7 +217,7 @@ class Simulation:
         """What the scene says of particles outside its domain."""
         rule = self.scene.domain.outside
         if rule == "stop":
-            raise self._lost()
+            raise gone_outside(self)
         self.guard()  # a position that is no number is nowhere
         self.solver.bring_in(rule == "delete", 0.5 * self.lightest)
         self._forget_masses()
@@ -231,7 +232,7 @@ class Simulation:
         guard(self.solver.particles)
         bad = self.solver.particles.bad[None]
         if bad < self.ranges[-1]:
-            raise self._bad(bad)
+            raise gone_wrong(self, bad)
 
     def _take_step(self, _most) -> bool:
         dt = self.dt
@@ -342,7 +343,7 @@ class Simulation:
         finite = np.isfinite(snapshot.position) & np.isfinite(snapshot.velocity)
         finite = finite.all(axis=1) & np.isfinite(snapshot.energy_density)
         if not finite.all():
-            raise self._bad(int(np.flatnonzero(~finite)[0]))
+            raise gone_wrong(self, int(np.flatnonzero(~finite)[0]))
         return snapshot
 
     @cached_property
@@ -361,62 +362,9 @@ class Simulation:
         """What the audit has counted since the start (ledger.py); nothing where it is off."""
         return ledger(self.solver, self.sums) if self.scene.output.audit else {}
 
-    def _bad(self, particle) -> MotionError:
-        values = particle_values(self.solver, particle)
-        return MotionError(
-            f"{self._when(particle)} {fault(values)} ({in_words(values)}). {self._advice()}",
-            particle,
-        )
-
-    def _lost(self) -> MotionError:
-        lost = self.solver.particles.lost[None]
-        x = self.solver.particles.to_numpy("x")[lost]
-        if not np.isfinite(x).all():
-            return self._bad(lost)
-        return MotionError(
-            f"{self._when(lost)} has left the domain {self.scene.domain.size}: it is at "
-            f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger, give it walls "
-            "(domain.walls; a fast soft body can still be pressed through), or say what happens to "
-            "such particles (domain.outside: delete or clamp). If it should not have "
-            f"moved so: {self._advice()}",
-            lost,
-            is_exit=True,
-        )
-
-    def _when(self, particle):
-        return f"t = {self.time:.6g} s, step {self.step_count}: {self.describe_particle(particle)}"
-
-    def _advice(self):
-        return (
-            f"A shorter time.step may help: steps were up to {self.time_step.longest:.3g} s, the "
-            f"{self.limit.name} limit at the start is {self.limit.seconds:.3g} s "
-            f"({self.limit.cause})."
-        )
-
     def warnings(self) -> dict[str, int]:
         """What a reader of the results should know, with counts."""
-        found = {}
-        cut = self.solver.grid.cut[None]
-        if cut:
-            found["nodes below the mass cut-off, taken as empty (counted each step)"] = cut
-        brought_in = self.solver.particles.brought_in[None]
-        if brought_in and self.scene.domain.outside == "delete":
-            gone = self.start_mass - float(self.body_mass.sum())
-            found[f"particles deleted at the border of the domain, {gone:.6g} kg"] = brought_in
-        elif brought_in:
-            found["times that a particle was clamped to the border of the domain"] = brought_in
-        for law in self.solver.particles.laws:
-            for name, words in law.kind.counters.items():
-                count = int(np.nansum(law.state.get_member_field(name).to_numpy(), dtype=float))
-                if count:
-                    found[f"{words} (counted each step)"] = count
-        if self.time_step.shortened:
-            found["steps shorter than time.step, since a limit asked for it"] = (
-                self.time_step.shortened
-            )
-        elif self.time_step.is_too_long(self.limit):
-            found[f"steps longer than the {self.limit.name} limit"] = self.step_count
-        return found
+        return cautions(self)
 
     def describe_particle(self, number: int) -> str:
         """Particle by its place in the scene: number, body, material."""

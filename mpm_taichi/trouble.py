@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import run_folder
-from .errors import InputError
+from .errors import InputError, MotionError
 
 AROUND = 6.0
 """Half the edge of the picture of surroundings [cells]."""
@@ -64,6 +64,46 @@ def in_words(values: dict[str, Any]) -> str:
 
 def _vector(numbers) -> str:
     return f"({', '.join(f'{number:.4g}' for number in numbers)})"
+
+
+def gone_wrong(simulation, particle: int) -> MotionError:
+    """Of a particle whose numbers are none, or no longer those of matter."""
+    values = particle_values(simulation.solver, particle)
+    return MotionError(
+        f"{_when(simulation, particle)} {fault(values)} ({in_words(values)}). "
+        f"{_advice(simulation)}",
+        particle,
+    )
+
+
+def gone_outside(simulation) -> MotionError:
+    """Of the first particle, by its place in the scene, that is outside the domain."""
+    lost = simulation.solver.particles.lost[None]
+    x = simulation.solver.particles.to_numpy("x")[lost]
+    if not np.isfinite(x).all():
+        return gone_wrong(simulation, lost)
+    return MotionError(
+        f"{_when(simulation, lost)} has left the domain {simulation.scene.domain.size}: it is at "
+        f"{[float(f'{value:.9g}') for value in x]}. Make the domain larger, give it walls "
+        "(domain.walls; a fast soft body can still be pressed through), or say what happens to "
+        "such particles (domain.outside: delete or clamp). If it should not have moved so: "
+        f"{_advice(simulation)}",
+        lost,
+        is_exit=True,
+    )
+
+
+def _when(simulation, particle):
+    who = simulation.describe_particle(particle)
+    return f"t = {simulation.time:.6g} s, step {simulation.step_count}: {who}"
+
+
+def _advice(simulation):
+    limit, longest = simulation.limit, simulation.time_step.longest
+    return (
+        f"A shorter time.step may help: steps were up to {longest:.3g} s, the {limit.name} limit "
+        f"at the start is {limit.seconds:.3g} s ({limit.cause})."
+    )
 
 
 def write_trouble(attempts, failure) -> str:
