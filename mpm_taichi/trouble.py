@@ -149,7 +149,7 @@ def _particle(simulation, particle: int) -> dict[str, Any]:
 
 
 def _draw_surroundings(simulation, particle: int, path: Path) -> None:
-    """The particles within some cells of where it was at the start of its trouble, or is."""
+    """The particles within some cells of it, itself in gray: at the border where it is outside."""
     from .renderers.picture import Frame, draw
     from .renderers.png import write_png
 
@@ -163,9 +163,12 @@ def _draw_surroundings(simulation, particle: int, path: Path) -> None:
     low = np.floor(low / scene.cell_size) * scene.cell_size
     cells = np.ceil(2 * half / scene.cell_size - 1e-9).astype(int)
     edge = cells * scene.cell_size
+    x[particle] = np.clip(center, low, low + edge)
     with np.errstate(all="ignore"):
         near = ((x >= low) & (x <= low + edge)).all(axis=1)
-        speed = np.linalg.norm(momentum[near] / m[near, None], axis=1)
+        speed = np.linalg.norm(momentum / m[:, None], axis=1)
+        speed[particle] = np.nan  # gray
+        speed = speed[near]
     shown = speed[np.isfinite(speed)]
     frame = Frame(
         position=x[near] - low,
@@ -174,7 +177,7 @@ def _draw_surroundings(simulation, particle: int, path: Path) -> None:
         body_names=[body.name for body in scene.bodies],
         time=simulation.time,
         longest_time=simulation.end,
-        title=f"around particle {particle}, from {_vector(low)} m on",
+        title=f"particle {particle} (gray); corner at {_vector(low)} m",
         domain_size=tuple(edge.tolist()),
         cells=tuple(cells.tolist()),
         quantity="speed",
