@@ -1,7 +1,8 @@
 """gmsh, started so that the rest of the program does not notice."""
 
 import os
-from contextlib import contextmanager
+import signal
+from contextlib import contextmanager, suppress
 
 from .errors import InputError
 
@@ -38,6 +39,14 @@ def gmsh_session():
         yield gmsh
     finally:
         gmsh.finalize()
+        _raise_at_broken_pipes()
+
+
+def _raise_at_broken_pipes():
+    """gmsh lets a pipe whose reader has gone end the process without a word; Python has it raise
+    BrokenPipeError."""
+    with suppress(AttributeError, ValueError):  # no such signal; not the main thread
+        signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
 
 @contextmanager

@@ -509,3 +509,15 @@ def test_damage_gives_points_or_an_input_error(dim, tmp_path, rng, capfd, bounde
     damaged()
     assert capfd.readouterr() == ("", "")
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_broken_pipe_raises_after_gmsh():
+    """gmsh sets SIGPIPE to end the process: after a session a pipe without a reader is an error of
+    Python's again, as for `| head` and for ffmpeg that has given up."""
+    with gmsh_session():
+        pass
+    reader, writer = os.pipe()
+    os.close(reader)
+    with pytest.raises(BrokenPipeError):
+        os.write(writer, b"x")
+    os.close(writer)
