@@ -9,6 +9,7 @@ import numpy as np
 
 from .errors import InputError
 from .history_table import read_history
+from .renderers.ledger import draw_ledger
 from .renderers.panels import Curve, Panel, draw_panels
 from .run_folder import read_report
 
@@ -30,11 +31,15 @@ Table = dict[str, np.ndarray]
 
 
 def plot(run: Path, output: Path | None, overwrite: bool) -> int:
-    """Draw energies, momentum and time step of a run into RUN/plot.png or `output`."""
+    """Draw energies, momentum and time step of a run into RUN/plot.png or `output`; of an audited
+    one also where its energy has gone, into a picture beside it, ...-ledger.png."""
     _need_matplotlib("plot")
     picture = run / "plot.png" if output is None else output
+    ledger = picture.with_name(f"{picture.stem}-ledger.png")
     _refuse(picture, overwrite)
     report, table = read_report(run), table_of(run)
+    if "energy_residual" in table:
+        _refuse(ledger, overwrite)
     panels = []
     for title, (unit, names) in GROUPS.items():
         drawn = [name for name in names if _is_shown(name, [table])]
@@ -47,6 +52,9 @@ def plot(run: Path, output: Path | None, overwrite: bool) -> int:
             levels = _limits_near(report, table) if title == "time step" else {}
             panels.append(Panel(title, unit, curves, span, levels))
     _draw(picture, f"{_name(run)}: {_described(report)}", panels, 1)
+    if "energy_residual" in table:
+        draw_ledger(ledger, table, _name(run))
+        print(f"picture: {ledger}")
     _tell({str(run): table})
     return 0
 

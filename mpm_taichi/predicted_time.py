@@ -73,10 +73,8 @@ def predict(simulation, patience: float = PATIENCE) -> Prediction | None:
 
     None where the run is over with its first step.  MotionError where it fails so soon."""
     with TemporaryDirectory() as folder:
-        attempts, watch = (
-            Attempts(simulation, Path(folder), Console(quiet=True)),
-            Stopwatch(patience),
-        )
+        attempts = Attempts(simulation, Path(folder), Console(quiet=True))
+        watch = Stopwatch(patience)
         simulation.guard()  # compiles what a run will need later
         with attempts.recording():
             with suppress(Enough):

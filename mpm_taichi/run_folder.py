@@ -28,7 +28,7 @@ RUN = Contents(
         "snapshots/snapshot_*.npz", "snapshots/particles.npz", "snapshots/*.npz.part",
         "paraview/particles_*.vtp", "paraview/grid_*.vti", "paraview/particles.pvd",
         "paraview/grid.pvd", "paraview/*.part", "video.mp4", "video.gif", "video.webp",
-        "plot.png", "player.html", "checkpoints/step_*.npz*", "trouble/*",
+        "plot.png", "plot-ledger.png", "player.html", "checkpoints/step_*.npz*", "trouble/*",
     ),
 )  # fmt: skip
 STUDY = Contents(
