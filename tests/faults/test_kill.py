@@ -17,6 +17,7 @@ LONG = (
     "time.step=2.5e-4", "output.every=0.25", "output.images={size: 160}", "output.checkpoints=0.2",
 )  # fmt: skip
 MORE = {
+    "two_disks_lattice": LONG[:2],
     "dam_break": ("domain.cells=[48, 24]", "time.end=0.2", "output.every=0.02"),
     "sod": ("time.step=2e-5", "output.every=0.02"),
     "spinning_disk": ("time.step=auto", "method.precision=f32", "time.end=1", "output.every=0.1"),

@@ -9,6 +9,7 @@ import pytest
 from mpm_taichi import cli, run_folder
 from mpm_taichi.errors import InputError
 from mpm_taichi.simulation import Simulation
+from mpm_taichi.whole_files import write_json
 from tests.command_line import SCENES
 
 SHORT = (
@@ -163,10 +164,10 @@ def test_a_run_says_that_it_runs(tmp_path, monkeypatch, capfd):
 def test_files_appear_whole(tmp_path):
     """Written beside and renamed: an old file is complete until the new one is, no part remains."""
     path = tmp_path / "run.json"
-    run_folder.write_json(path, {"a": 1})
+    write_json(path, {"a": 1})
     with pytest.raises(TypeError):
-        run_folder.write_json(path, {"a": object()})
+        write_json(path, {"a": object()})
     assert json.loads(path.read_text()) == {"a": 1}
-    run_folder.write_json(path, {"a": 2})
+    write_json(path, {"a": 2})
     assert json.loads(path.read_text()) == {"a": 2}
     assert names(tmp_path) == ["run.json"]
