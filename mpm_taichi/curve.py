@@ -99,6 +99,8 @@ def _borrowed(law: str) -> tuple[dict, str]:
 def _picture_path(wanted: Path | None, overwrite: bool, what: str) -> Path:
     """`wanted`, or the first free one of runs/curve-<what>-001.png, -002, ..."""
     if wanted is None:
+        if overwrite:
+            raise InputError("--overwrite: is for -o FILE.png, which names a picture")
         name = Path(what).name.replace(".yaml", "").replace(":", "-")
         numbered = (Path("runs") / f"curve-{name}-{number:03d}.png" for number in count(1))
         return next(path for path in numbered if not _taken(path))

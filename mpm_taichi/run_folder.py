@@ -36,8 +36,17 @@ STUDY = Contents(
 
 def refuse(wanted: Path | None, overwrite: bool, contents: Contents = RUN) -> None:
     """InputError where `create` would have to touch what is not a run, or was not asked to."""
-    if wanted is None or not wanted.exists():
+    if wanted is None:
+        if overwrite:
+            raise InputError(
+                f"--overwrite: is for -o DIR; without it a {contents.noun} gets a new folder"
+            )
         return
+    try:
+        if not wanted.exists():
+            return
+    except OSError as error:  # a name that is too long
+        raise InputError(f"-o: {error.strerror}: {wanted}") from None
     if not wanted.is_dir():
         raise InputError(f"-o {wanted}: this is a file; name a folder for the {contents.noun}")
     if not any(wanted.iterdir()):

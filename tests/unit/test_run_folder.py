@@ -43,7 +43,16 @@ def test_folders_are_numbered(tmp_path, monkeypatch):
     made = [run_folder.create("drop", None, False) for _ in range(3)]
     assert made == [Path(f"runs/drop-00{k}") for k in (1, 3, 4)]
     assert run_folder.create("ball", None, False) == Path("runs/ball-001")
-    assert run_folder.create("drop", None, True) == Path("runs/drop-005")
+
+
+def test_overwrite_is_about_a_folder_that_is_named(tmp_path, monkeypatch):
+    """Without -o it would be accepted and ignored; a name that no folder can have is told."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=r"--overwrite: is for -o DIR"):
+        run_folder.create("drop", None, True)
+    with pytest.raises(InputError, match=r"-o: File name too long"):
+        run_folder.refuse(Path("x" * 300), False)
+    assert names(tmp_path) == []
 
 
 def test_runs_started_at_once_get_folders_of_their_own(tmp_path, monkeypatch):
