@@ -131,6 +131,36 @@ def test_ctrl_c_saves_and_says_how_to_go_on(whole, tmp_path):
     assert (again.returncode, again.stderr) == (2, f"--resume {folder}: the run is done\n")
 
 
+def mount(folder, size) -> bool:
+    """A file system of that size there, or another size of the one that is; root alone may."""
+    new = "size" if not folder.is_mount() else "remount,size"
+    command = ["mount", "-t", "tmpfs", "-o", f"{new}={size}", "tmpfs", str(folder)]
+    return subprocess.run(command, capture_output=True).returncode == 0
+
+
+@pytest.mark.campaign
+def test_a_full_disk_ends_a_run_that_goes_on_when_there_is_room(whole, tmp_path):
+    """A file system that fills up at the tenth picture or so: exit code 1 and a sentence, the last
+    checkpoint whole, no part of a file; with more room it ends as the undisturbed run."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    if not mount(disk, "420k"):
+        pytest.skip("mounting needs root")
+    try:
+        full = mpm_taichi(*words(LATTICE, (*LONG, "output.snapshots=false"), disk / "run"))
+        print(full.stderr)
+        assert full.returncode == 1
+        assert "No space left on device" in full.stderr
+        assert in_words(full.stderr)
+        assert not list(disk.rglob("*.part"))
+        assert checkpoints.newest(disk / "run" / "checkpoints") is not None
+        assert mount(disk, "20m")
+        assert mpm_taichi("--resume", disk / "run", "-q").returncode == 0
+        assert results(disk / "run") == results(whole)
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)
+
+
 FAILING = (
     "time.step=0.0125",
     "time.enforce=false",
