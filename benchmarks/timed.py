@@ -33,7 +33,7 @@ class Stages:
 
     def __init__(self, dim, precision, particles, form, threads, law=None):
         self.threads, self.law = threads, law
-        runtime.start("cpu", precision, threads, offline_cache=False)
+        runtime.start("cpu", precision, threads, particles, offline_cache=False)
         make = self._textbook if form.startswith("textbook") else self._ours
         make(dim, particles, form)
         for function in self.stages.values():
@@ -112,7 +112,7 @@ class Steps:
     """Whole steps, as `Solver.step` takes them."""
 
     def __init__(self, dim, precision, particles, form, threads, room):
-        runtime.start("cpu", precision, threads, offline_cache=False)
+        runtime.start("cpu", precision, threads, particles, offline_cache=False)
         self.solver, self.dt = our_solver(dim, particles, form, threads, room)
         self.solver.start(self.dt)
         self._step()
@@ -150,7 +150,7 @@ class SmallScene:
     """A step of few particles on one thread: whole steps in a launch, and stage by stage."""
 
     def __init__(self, dim, precision, particles, form):
-        runtime.start("cpu", precision, 1, offline_cache=False)
+        runtime.start("cpu", precision, 1, particles, offline_cache=False)
         self.by_stage, self.dt = our_solver(dim, particles, form)
         given = Pace(
             self.dt, safety=1, acoustic=HUGE, wave_speed=1, constant=HUGE, travel=HUGE,

@@ -74,7 +74,7 @@ class Simulation:
         self.threads = threads or self._worthwhile_threads()
         if self.threads > MOST_THREADS:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
-        runtime.start(device, self.precision, self.threads)
+        runtime.start(device, self.precision, self.threads, int(self.ranges[-1]))
         self._ends = runtime.ends
         stages.reset()
         bodies = [body_points(scene, index, p.x, p.V0) for index, p in enumerate(points)]
