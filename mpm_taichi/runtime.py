@@ -40,7 +40,7 @@ def real_type() -> np.dtype:
 MANY = 32_768
 """Particles from which Taichi's own control-flow optimization pays on a CPU.  LLVM does the same
 work behind it, but for laws that iterate, whose stress takes 5 to 15 % longer without; with it a
-scene takes 1 to 5 s longer to compile, since it looks for the stores behind each load of a kernel."""
+scene takes 1 to 5 s longer to compile: it looks for the stores behind each load of a kernel."""
 
 ends = 0
 """How often all fields have gone, since the program began."""
