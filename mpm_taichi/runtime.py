@@ -10,7 +10,10 @@ import taichi as ti
 from taichi.lang import impl
 from taichi.lang.util import to_numpy_type
 
+from . import taichi_memory
 from .errors import InputError
+
+taichi_memory.install()
 
 if TYPE_CHECKING:
     Template = Any
