@@ -1,4 +1,5 @@
-"""CPU and wall time per particle-step, beside the textbook Taichi form in the same run.
+"""CPU and wall time per particle-step, beside the textbook Taichi form and Taichi's own example in
+the same run, and how long one waits for the first pictures.
 
     python benchmarks/throughput.py [--quick] [--dim 2 3] [--precision f32 f64] [--particles N]
                                     [--threads 1 2 ...] [--forms "quadratic mls" ...]
@@ -21,15 +22,16 @@ from pathlib import Path
 from statistics import median
 
 import curves
+import first_frame
 import laws
 from interleaved import in_turns
 from limits import copy_bandwidth, instruction_limit, memory_limit
 from tables import markdown
-from workload import FORMS, TEXTBOOK, pair
+from workload import FORMS, PEERS, TEXTBOOK, pair
 
 DEFAULT_PARTICLES = {2: 250_000, 3: 1_000_000}
 LAW_PARTICLES = 200_000
-STAGES = ("clear", "p2g", "grid_update", "g2p", "residual", "update_stress", "sort")
+STAGES = ("clear", "p2g", "grid_update", "g2p", "residual", "update_stress", "whole step", "sort")
 
 
 def machine():
@@ -84,7 +86,7 @@ def measured(dim, precision, count, forms, threads, rounds):
             "kind": "stages", "dim": dim, "precision": precision, "particles": count,
             "form": form, "threads": workers,
         }
-        for form, workers in product([*forms, *TEXTBOOK], threads)
+        for form, workers in product([*forms, *TEXTBOOK, *PEERS], threads)
     ]  # fmt: skip
     found = {}
     for child in in_turns(specs, rounds):
@@ -228,6 +230,9 @@ def main():
         content["small"] = curves.small_scene(FORMS[0], options.precision, rounds)
         print("\nA small scene, one thread, wall microseconds per step\n")
         print(curves.small_table(content["small"]), flush=True)
+        content["first_frame"] = first_frame.measured(rounds)
+        print("\nFirst pictures of shipped scenes, from the start of the process\n")
+        print(first_frame.table(content["first_frame"]), flush=True)
     if options.curves:
         content["curves"] = [
             row

@@ -9,6 +9,7 @@ import time
 import numpy as np
 from allocation import allocated, fields_of
 from clocks import clock_ghz, now, of_workers
+from taichi_example import TaichiExample
 from textbook import Textbook
 from workload import MATERIAL, block, our_solver, step_length
 
@@ -33,9 +34,9 @@ class Stages:
 
     def __init__(self, dim, precision, particles, form, threads, law=None):
         self.threads, self.law = threads, law
-        runtime.start("cpu", precision, threads, offline_cache=False)
-        make = self._textbook if form.startswith("textbook") else self._ours
-        make(dim, particles, form)
+        runtime.start("cpu", precision, threads, particles, offline_cache=False)
+        others = {"textbook": self._textbook, "mpm3d": self._taichi_example}
+        others.get(form.split()[0], self._ours)(dim, particles, form)
         for function in self.stages.values():
             function()
 
@@ -47,6 +48,14 @@ class Stages:
         self.particles, self.nodes = len(x), cells**dim
         self.particle_fields = [step.x, step.v, step.C, step.F]
         self.node_fields = [step.grid_v, step.grid_m]
+
+    def _taichi_example(self, dim, count, form):
+        x, v, _V0, cells = block(dim, count, form)
+        step = TaichiExample(x, v, cells, MATERIAL, step_length(cells))
+        self.stages = {"whole step": step.substep}
+        self.sort, self.steps_per_sort = None, lambda: 1.0
+        self.particles, self.nodes = len(x), cells**dim
+        self.particle_fields, self.node_fields = step.particle_fields, step.node_fields
 
     def _ours(self, dim, count, form):
         solver, dt = our_solver(dim, count, form, self.threads, law=self.law)
@@ -112,7 +121,7 @@ class Steps:
     """Whole steps, as `Solver.step` takes them."""
 
     def __init__(self, dim, precision, particles, form, threads, room):
-        runtime.start("cpu", precision, threads, offline_cache=False)
+        runtime.start("cpu", precision, threads, particles, offline_cache=False)
         self.solver, self.dt = our_solver(dim, particles, form, threads, room)
         self.solver.start(self.dt)
         self._step()
@@ -150,7 +159,7 @@ class SmallScene:
     """A step of few particles on one thread: whole steps in a launch, and stage by stage."""
 
     def __init__(self, dim, precision, particles, form):
-        runtime.start("cpu", precision, 1, offline_cache=False)
+        runtime.start("cpu", precision, 1, particles, offline_cache=False)
         self.by_stage, self.dt = our_solver(dim, particles, form)
         given = Pace(
             self.dt, safety=1, acoustic=HUGE, wave_speed=1, constant=HUGE, travel=HUGE,

@@ -1,5 +1,5 @@
 """The work that is timed: a neo-Hookean block in shear in the middle of a box, 2^dim particles per
-cell, dt = 0.1 dx / c, in a form `basis transfer` of ours or in the textbook form."""
+cell, dt = 0.1 dx / c, in a form `basis transfer` of ours, in the textbook form or Taichi's own."""
 
 from types import SimpleNamespace
 
@@ -16,6 +16,8 @@ from mpm_taichi.transfers import FlipPart
 
 FORMS = ("quadratic mls", "quadratic apic", "quadratic flip", "linear flip")
 TEXTBOOK = ("textbook sorted", "textbook random")
+PEERS = ("mpm3d sorted",)
+"""Taichi's own example, which its package brings along."""
 
 MATERIAL = NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e5, poissons_ratio=0.3)
 
@@ -51,7 +53,7 @@ def block(dim, count, form, room=1):
         x = corner + 0.5 * (lattice + 0.5 + 0.2 * (rng.random(lattice.shape) - 0.5))
     else:
         x = corner + side * rng.random((2**dim * side**dim, dim))
-    if form == "textbook sorted":
+    if form.endswith("sorted"):
         first = np.floor(x - 0.5).astype(int)
         x = x[np.lexsort(first.T[::-1])]
     v = np.zeros_like(x)

@@ -10,6 +10,7 @@ import taichi as ti
 from .errors import InputError
 from .fields import FieldPlan
 from .kernels.blocks import BLOCK, CHUNK, GATE
+from .kernels.fill import fill
 
 PAD = 4  # nodes
 
@@ -118,14 +119,12 @@ class Grid(NodeLayout):
         }
         size = ti.types.vector(self.dim, float)
         self.constants = ti.Struct.field({**dict.fromkeys(numbers, float), "size": size}, shape=())
-        for name, number in numbers.items():
-            self.constants[None][name] = number
-        self.constants[None]["size"] = [n * dx for n in cells]
+        fill(self.constants, [{**numbers, "size": [n * dx for n in cells]}])
 
-    def note_reach(self):
+    def note_reach(self, active_count, lowest, highest):
         """After a sort: what the host has to know of the nodes that particles can reach."""
-        self.node_workers = self.workers(self.active_count[None] * CHUNK)
-        low, high = self.lowest.to_numpy() - 1, self.highest.to_numpy() + self.support
+        self.node_workers = self.workers(active_count * CHUNK)
+        low, high = lowest - 1, highest + self.support
         self.near_end = (low < self.ghost) | (high > self.ghost + np.array(self.cells))
         at_end = (low <= self.ghost) | (high >= self.ghost + np.array(self.cells))
         self.is_near_wall = any(at_end[axis] for axis, _ in self.walled)

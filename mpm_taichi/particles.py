@@ -9,6 +9,7 @@ import numpy as np
 import taichi as ti
 
 from .fields import SCRATCH, particle_fields, state_fields, uses_undeformed_place
+from .kernels.fill import fill, fill_particles
 from .kernels.rows import RowLayout
 from .materials import Material
 from .runtime import real_type
@@ -56,11 +57,10 @@ class Law:
         self.kind, self.first, self.begin = type(materials[0]), first, begin
         numbers = [material.constants(dx) for material in materials]
         self.constants = ti.Struct.field(dict.fromkeys(numbers[0], float), shape=len(materials))
-        for k, values in enumerate(numbers):
-            for name, number in values.items():
-                self.constants[k][name] = number
-        self.ends = ti.field(int, len(materials) + 1)
-        self.ends.from_numpy(begin + np.cumsum([0, *map(len, H)], dtype=np.int32))
+        fill(self.constants, numbers)
+        self.ends: Any = ti.field(int, len(materials) + 1)
+        for k, end in enumerate(begin + np.cumsum([0, *map(len, H)])):
+            self.ends[k] = int(end)
         plans = state_fields(materials[0], dim, sum(map(len, H)))
         self.has_state = bool(plans)
         if self.has_state:
@@ -70,7 +70,8 @@ class Law:
             self.scratch = ti.Struct.field(elements, shape=sum(map(len, H)))
             for name in plans:
                 values = np.concatenate([start[name] for start in starts])
-                self.state.get_member_field(name).from_numpy(values)
+                if values.any():
+                    self.state.get_member_field(name).from_numpy(values)
 
 
 @dataclass(frozen=True)
@@ -102,14 +103,14 @@ def groups_of(materials, dim, dx, H) -> list[Group]:
 
 def grouped(bodies):
     """The bodies with those of a material, and the materials of a law, side by side; these
-    materials; and the id of each particle."""
+    materials; and the id of the first particle of each."""
     materials = list(dict.fromkeys(body.material for body in bodies))
     laws = list(dict.fromkeys(map(type, materials)))
     materials.sort(key=lambda material: laws.index(type(material)))
     order = sorted(range(len(bodies)), key=lambda k: materials.index(bodies[k].material))
     ends = np.cumsum([len(body.x) for body in bodies])
-    id = [np.arange(ends[k] - len(bodies[k].x), ends[k], dtype=np.int32) for k in order]
-    return [bodies[k] for k in order], materials, np.concatenate(id)
+    ids = [int(ends[k]) - len(bodies[k].x) for k in order]
+    return [bodies[k] for k in order], materials, ids
 
 
 def displacement_gradients(bodies):
@@ -118,6 +119,18 @@ def displacement_gradients(bodies):
         return np.concatenate([body.displacement_gradient for body in bodies])
     dim = bodies[0].x.shape[1]
     return np.broadcast_to(0.0, (sum(len(body.x) for body in bodies), dim, dim))
+
+
+def turns(carried):
+    """In which the sort moves what is carried, (field, scratch, begin) each: what to bring back
+    from its scratch, and what to take there next."""
+    waves = []
+    for k, record in enumerate(carried):
+        turn = sum(scratch is record[1] for _, scratch, _ in carried[:k])
+        if turn == len(waves):
+            waves.append([])
+        waves[turn].append(record)
+    return list(zip([[], *waves], [*waves, []], strict=True))
 
 
 class Particles:
@@ -138,7 +151,7 @@ class Particles:
         self.layout = RowLayout(transfer, self.dim, keeps_pic, body_force is not None, audited)
         self.transfer, self.basis, self.dx = transfer, basis, dx
         self.dtype = real_type()
-        bodies, materials, id = grouped(bodies)
+        bodies, materials, ids = grouped(bodies)
         self.group_count = len(materials)
         self.groups = groups_of(
             materials, self.dim, dx,
@@ -166,32 +179,30 @@ class Particles:
         for law in self.laws:
             if law.has_state:
                 self.carried.append((law.state, law.scratch, law.begin))
-        self._fill(bodies, id)
+        self.turns = turns(self.carried)
+        self.fill(bodies, ids)
 
-    def _fill(self, bodies, id):
-        """Values at the start.  Each array is made in the precision of the run, and is gone before
-        the next."""
+    def fill(self, bodies, ids):
+        """Values at the start; ids[k] is that of the first particle of body k.  Arrays are made in
+        the precision of the run, and those of a body are gone before the next."""
 
         def put(field, values):
             field.from_numpy(np.concatenate(list(map(values, bodies)), dtype=self.dtype))
 
-        self.id.from_numpy(id)
+        first = 0
+        for body, id in zip(bodies, ids, strict=True):
+            m = body.material.density * body.V0
+            x, m_p, V0 = (np.ascontiguousarray(each, self.dtype) for each in (body.x, m, body.V0))
+            rows = self.gathered(m, body.v, body.velocity_gradient)
+            fill_particles(self, first, id, x, m_p, V0, rows)
+            first += len(m)
         self.lost[None] = self.count
-        put(self.x, lambda body: body.x)
         if any(body.H is not None for body in bodies):
             put(self.H, lambda body: body.displacement_gradient)
-        put(self.V0, lambda body: body.V0)
-        put(self.m, lambda body: body.material.density * body.V0)
         if self.X is not self.x:
             put(self.X, lambda body: body.undeformed)
         if self.basis.extended:
             put(self.half_width, lambda body: 0.5 * body.V0 ** (1 / self.dim) / self.dx)
-        put(
-            self.rows,
-            lambda body: self.gathered(
-                body.material.density * body.V0, body.v, body.velocity_gradient
-            ),
-        )
 
     def gathered(self, m, v, L):
         """Rows [n, rows, 4] as after a gather of velocities v and their gradient L, which serves as

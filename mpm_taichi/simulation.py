@@ -74,7 +74,7 @@ class Simulation:
         self.threads = threads or self._worthwhile_threads()
         if self.threads > MOST_THREADS:
             raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
-        runtime.start(device, self.precision, self.threads)
+        runtime.start(device, self.precision, self.threads, int(self.ranges[-1]))
         self._ends = runtime.ends
         stages.reset()
         bodies = [body_points(scene, index, p.x, p.V0) for index, p in enumerate(points)]
@@ -104,8 +104,12 @@ class Simulation:
                 f"{self.ranges[-1]} particles and {' x '.join(map(str, scene.domain.cells))} cells "
                 "do not fit into memory: take fewer, larger cells (domain.cells) or fewer particles"
             ) from None
-        self.lightest = float(self._constant["mass"].min())
-        self.start_mass = float(self._constant["mass"].sum())
+        self.at_start = {
+            "mass": self._rounded(body.material.density * body.V0 for body in bodies),
+            "initial_volume": self._rounded(body.V0 for body in bodies),
+        }
+        self.lightest = float(self.at_start["mass"].min())
+        self.start_mass = float(self.at_start["mass"].sum())
         self.outputs = EverySeconds(scene.output_interval, scene.time.end)
         self.time, self.step_count, self.output_count = 0.0, 0, 0
         self._look()
@@ -125,6 +129,10 @@ class Simulation:
         self.solver.start(self.dt)
         if scene.output.audit:
             begin_ledger(self.solver, self.sums)
+
+    def _rounded(self, values):
+        """Of all bodies one after the other, in the precision of the run, as float64."""
+        return np.concatenate(list(values)).astype(runtime.real_type()).astype(float)
 
     def _half_width(self, bodies):
         """Of the smallest particle [cells].  InputError where a basis that takes particles as
@@ -326,10 +334,11 @@ class Simulation:
     @cached_property
     def _constant(self) -> dict[str, np.ndarray]:
         """What does not change, but where particles are deleted: nothing is left of those."""
+        if self.scene.domain.outside != "delete" or not self.solver.particles.brought_in[None]:
+            return self.at_start
         m, V0 = map(self.solver.particles.to_numpy, ("m", "V0"))
-        if self.scene.domain.outside == "delete" and self.solver.particles.brought_in[None]:
-            gone = m < 0.5 * self.lightest
-            m[gone], V0[gone] = 0.0, 0.0
+        gone = m < 0.5 * self.lightest
+        m[gone], V0[gone] = 0.0, 0.0
         return {"mass": m, "initial_volume": V0}
 
     @cached_property

@@ -13,10 +13,6 @@ os.environ.setdefault("TI_OFFLINE_CACHE_FILE_PATH", str(CACHE))
 os.environ.setdefault("TI_SKIP_VERSION_CHECK", "ON")
 os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "0")
 
-from . import taichi_memory  # noqa: E402
-
-taichi_memory.install()
-
 
 @pytest.fixture
 def rng():

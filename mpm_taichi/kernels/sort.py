@@ -1,8 +1,9 @@
 """Stage 0, when due: counting sort of each material by the first node of the stencil."""
 
+import numpy as np
 import taichi as ti
 
-from ..runtime import Template
+from ..runtime import Array, Template
 from ..stages import stage
 from .blocks import CHUNK
 from .stencil import first_node, index
@@ -18,7 +19,20 @@ def find_order(particles: Template, grid: Template, basis: Template, g: int, beg
     """order[new place] = old place, and start[g, slab].  Serial on a CPU: equal cells keep their
     order, whatever the number of threads.  On a GPU each chunk takes the next places that are free.
 
-    Cells are counted, but only chunks with particles are looked at again."""
+    The first group forgets what the last sort has found.  Cells are counted, but only chunks with
+    particles are looked at again."""
+    ti.loop_config(serialize=not grid.atomic)
+    for chunk in range(grid.chunks):
+        if g == 0:
+            grid.occupied[chunk] = 0
+    ti.loop_config(serialize=True)
+    for _ in range(1):
+        for slab in range(grid.slabs + 1):
+            grid.start[g, slab] = 0
+        for d in ti.static(range(grid.dim)):
+            if g == 0:
+                grid.lowest[None][d] = grid.nodes
+                grid.highest[None][d] = 0
     ti.loop_config(serialize=not grid.atomic)
     for p in range(begin, end):
         base = first_node(particles.x[p], grid, basis)
@@ -74,27 +88,16 @@ def move(from_field: Template, i, to_field: Template, j):
 
 @ti.kernel
 def permute(particles: Template):
-    """field[i] <- field[order[begin + i] - begin] of all that is carried; in one kernel, since each
-    takes a while to compile."""
-    for field, scratch, begin in ti.static(particles.carried):
-        for i in range(field.shape[0]):
-            move(field, particles.order[begin + i] - begin, scratch, i)
-        for i in range(field.shape[0]):
-            move(scratch, i, field, i)
-
-
-@ti.kernel
-def forget(grid: Template):
-    """Before a sort: nothing is occupied, and what was reached is no more."""
-    for a in range(grid.active_count[None]):
-        grid.reached[grid.active[a]] = 0
-    for chunk in grid.occupied:
-        grid.occupied[chunk] = 0
-    for g, slab in grid.start:
-        grid.start[g, slab] = 0
-    for d in ti.static(range(grid.dim)):
-        grid.lowest[None][d] = grid.nodes
-        grid.highest[None][d] = 0
+    """field[p] <- field[order[p]] of all that is carried.  Fields that share a scratch take turns:
+    a loop brings back what the one before it has taken, and takes the next."""
+    for brought, taken in ti.static(particles.turns):
+        for p in range(particles.count):
+            for field, scratch, begin in ti.static(brought):
+                if begin <= p and p < begin + field.shape[0]:
+                    move(scratch, p - begin, field, p - begin)
+            for field, scratch, begin in ti.static(taken):
+                if begin <= p and p < begin + field.shape[0]:
+                    move(field, particles.order[p] - begin, scratch, p - begin)
 
 
 @ti.func
@@ -112,8 +115,11 @@ def mark_around(chunk, grid: Template):
 
 
 @ti.kernel
-def plan(particles: Template, grid: Template):
-    """From occupied: reached and active.  From start[group, slab]: the share of each slab."""
+def plan(particles: Template, grid: Template, reach: Array):
+    """From occupied: reached and active.  From start[group, slab]: the share of each slab.  For the
+    host: reach = [active_count, lowest, highest]."""
+    for a in range(grid.active_count[None]):
+        grid.reached[grid.active[a]] = 0
     ti.loop_config(serialize=not grid.atomic)
     for chunk in range(grid.chunks):
         if grid.occupied[chunk]:
@@ -134,6 +140,10 @@ def plan(particles: Template, grid: Template):
                 inside += grid.start[g, slab + 1] - grid.start[g, slab]
             grid.share[slab] = (before + 0.5 * inside) / particles.count
             before += inside
+        reach[0] = grid.active_count[None]
+        for d in ti.static(range(grid.dim)):
+            reach[1 + d] = grid.lowest[None][d]
+            reach[1 + grid.dim + d] = grid.highest[None][d]
 
 
 @stage
@@ -141,15 +151,14 @@ def sort(particles, grid, basis):
     """On return the particles of each material lie in the order of their slabs and cells,
     `grid.start` says where each slab begins, and `grid.active` lists the chunks of nodes that
     particles can reach before one of them has moved a cell."""
-    forget(grid)
     for g, group in enumerate(particles.groups):
         find_order(particles, grid, basis, g, group.begin, group.end)
     permute(particles)
-    plan(particles, grid)
-    grid.note_reach()
+    take_up(particles, grid)
 
 
 def take_up(particles, grid):
-    """After what a sort had found was put back into the fields: all that follows from it."""
-    plan(particles, grid)
-    grid.note_reach()
+    """What follows from what a sort has found, also where that was put back into the fields."""
+    reach = np.zeros(1 + 2 * grid.dim, np.int32)
+    plan(particles, grid, reach)
+    grid.note_reach(int(reach[0]), reach[1 : 1 + grid.dim], reach[1 + grid.dim :])

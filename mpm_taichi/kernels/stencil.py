@@ -1,4 +1,9 @@
-"""Walking a stencil by lines: a line is the `support` nodes along the last axis, side by side."""
+"""Walking a stencil by lines: a line is the `support` nodes along the last axis, side by side.
+
+Lines are unrolled.  With loops over them the kernels of a 3D scene compile in 1 to 3 s less, once,
+before Taichi's cache has them; but P2G and G2P work on memory where they had registers, and a step
+takes 5 % longer with quadratic MLS, 28 % with APIC, 33 % with cubic MLS.  That pays for less than
+some 10^7 particle-steps, and would make the last bits depend on the length of a run."""
 
 import taichi as ti
 

@@ -34,15 +34,8 @@ def restart(solver, x, v, V0):
     """The same solver with as many particles at other places: nothing is compiled again."""
     particles = solver.particles
     assert particles.count == len(x)
-    m = JELLY.density * V0
-    particles.x.from_numpy(x)
-    particles.V0.from_numpy(V0)
-    particles.m.from_numpy(m)
-    particles.id.from_numpy(np.arange(len(x)))
-    if solver.basis.extended:
-        particles.half_width.from_numpy(0.5 * V0 ** (1 / particles.dim) / solver.grid.dx)
     particles.H.fill(0.0)
-    particles.rows.from_numpy(particles.gathered(m, v, np.zeros_like(particles.to_numpy("H"))))
+    particles.fill([BodyPoints(JELLY, x, v, V0)], [0])
     solver.drift = np.inf
 
 
