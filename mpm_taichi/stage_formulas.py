@@ -42,7 +42,7 @@ def formulas(scene: Scene, stage: str) -> tuple[str, ...]:
     if stage == "stress":
         given = "w_ip (m_p v_p + A_p r_ip)" if transfer.affine else "w_ip m_p v_p"
         now = f"v_i = sum_p {given} / m_i"
-        move = (MOVE,) if order == "musl" else ()
+        move = (f"{MOVE}, v_i of the grid update",) if order == "musl" else ()
         return (now, f"L_p = {GRADIENT}", *STRESS, *move)
     return ("m_i <- 0, v_i <- 0", "x_i <- i dx")
 

@@ -2,9 +2,10 @@
 
 Particles get channels of half-precision numbers, in units of a scale, for they have to be told to
 three digits, large and small: velocity [m/s] and its gain in the step [m/s] (x, y each), Cauchy
-stress [Pa] (xx, yy, xy) and H = F - I (xx, xy, yx, yy).  Nodes lie in blocks of their own, deflated,
-in base64, some frames each.  Of a frame, little-endian: their number N (uint32); places x / dx, y / dx
-(int16) [N, 2]; mass [N] (kg) and velocity after each moving stage [stages, N, 2] (m/s) (float32)."""
+stress [Pa] (xx, yy, xy) and H = F - I (xx, xy, yx, yy).  Nodes lie in blocks of their own, some
+frames each, deflated, in base64.  Of a frame, little-endian: their number N (uint32); places x / dx
+[N, 2] (int16); mass [N] (kg) and velocity after each moving stage [stages, N, 2] (m/s) (float32).
+"""
 
 import base64
 import zlib

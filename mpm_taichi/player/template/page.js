@@ -132,7 +132,8 @@ class Page {
       this.picked ??= this.nearest(camera.column, camera.row, Infinity);
       this.viewBefore = { ...camera.view };
       const cell = film.domain.size[0] / film.domain.cells[0];
-      const close = Math.min(camera.width, camera.height) / CELLS_SEEN / cell;
+      const cells = BASES[walk.stages.basis].support + 3;  // across the shorter side
+      const close = Math.min(camera.width, camera.height) / cells / cell;
       camera.zoomBy(Math.max(close / camera.scale, 1));
       this.follow();
     } else if (this.viewBefore) {
@@ -239,11 +240,11 @@ class Page {
     const over = onPixels(byId("over"), ratio);
     ground.drawOver(over, camera);
     byId("particles").classList.toggle("faint", isSketched);
-    if (isSketched) this.sketch.draw(over, camera, moment);
     if (picked != null && !film.isGone(frame, picked)) {
       const place = this.places.subarray(4 * picked, 4 * picked + 3);
       ground.drawRing(over, camera, place, film.radius[picked]);
     }
+    if (isSketched) this.sketch.draw(over, camera, moment);
     this.tell();
     if (!byId("log").hidden) this.log.show(frame, picked);
     this.chart?.draw(frame, ratio);
@@ -266,7 +267,5 @@ class Page {
     byId("stage").setAttribute("aria-label", `${film.title}: particles at ${time}, ${words}`);
   }
 }
-
-const CELLS_SEEN = 5;  // stage by stage, across the shorter side
 
 const FINGER = 8;  // pixels from a particle at which it is meant

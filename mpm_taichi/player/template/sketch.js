@@ -12,41 +12,41 @@ class Sketch {
   }
 
   draw(pen, camera, moment) {
-    const { name, mine, x, step, larger, isStill } = moment;
-    const at = place => camera.look([...place, 0]).slice(0, 2);
-    const moved = (place, by) => at(place.map((entry, axis) => entry + larger * by[axis]));
+    const { name, mine, x, step, dt, larger, isStill } = moment;
+    const at = (place, by = [0, 0]) =>
+      camera.look([...place.map((entry, axis) => entry + larger * by[axis]), 0]).slice(0, 2);
+    const away = (place, v) => at(place, v.map(entry => entry * dt));
     Object.assign(this, { pen, cell: moment.dx * camera.scale });
-    const seat = node => moment.isGridMoved
-      ? moved(node.x, node.v.map(v => v * moment.dt)) : at(node.x);
-    this.drawNodes(moment, camera, moved);
-    const [from, to] = [at(x), moved(x, step)];
-    if (step.some(Boolean)) this.arrow(from, to, 2, this.colors.picked, 0, 0);
-    if (!isStill)
-      for (const node of mine) {
-        const ends = name == "particles to nodes" ? [from, seat(node)] : [seat(node), to];
-        if (name == "grid update" || name == "stress") continue;
-        pen.globalAlpha = Math.min(1, 0.35 + 2 * node.w);
-        this.arrow(...ends, 1 + 5 * node.w, this.colors.picked, 7, 7);
-      }
+    this.drawNodes(moment, camera, at, away);
+    const seat = node => moment.isGridMoved ? away(node.x, node.v) : at(node.x);
+    const [from, to] = [at(x), at(x, step)];
+    this.arrow(from, to, 2, this.colors.picked, 0);
+    for (const node of mine) {
+      const gives = name == "particles to nodes", takes = name == "nodes to particles";
+      if (!gives && !takes) continue;
+      pen.globalAlpha = Math.min(1, 0.35 + 2 * node.w);
+      this.arrow(...(gives ? [from, seat(node)] : [seat(node), to]), 1 + 5 * node.w,
+        this.colors.picked, 7);
+    }
     pen.globalAlpha = 1;
     this.disc(to, 6, this.colors.picked);
     if (isStill || this.cell < LABELED) return;
-    for (const node of mine) this.label([node.w.toFixed(3), node.place.join(", ")], seat(node), to);
+    for (const node of mine) this.label([weight(node.w), node.place.join(", ")], seat(node), to);
   }
 
   /** Discs whose area is the mass, rings of nodes without; arrows of their motion, and the lines of
    *  the grid that moves with them. */
-  drawNodes(moment, camera, moved) {
-    const { pen, colors, cell } = this, { nodes, dx, dt, name } = moment;
+  drawNodes(moment, camera, at, away) {
+    const { pen, colors, cell } = this, { nodes, dx, dt, name, larger, isGridMoved } = moment;
     const mine = new Set(moment.mine.map(({ i }) => i));
-    const isMoving = name == "grid update" || name == "stress" || name == "nodes to particles";
     const seats = Array.from(nodes.mass, (_, i) => {
-      const x = nodes.placeOf(i).map(entry => entry * dx), v = moment.velocityOf(i);
-      const way = v.map(entry => entry * dt * moment.larger);
-      const isFar = Math.hypot(...way) > FARTHEST * dx;
-      return { home: moved(x, [0, 0]), away: moved(x, v.map(entry => entry * dt)), isFar };
+      const x = nodes.placeOf(i).map(entry => entry * dx), v = moment.velocityOf(i), home = at(x);
+      const isFar = Math.hypot(...v) * dt * larger > FARTHEST * dx;
+      const isSeen = home[0] > -cell && home[0] < camera.width + cell
+        && home[1] > -cell && home[1] < camera.height + cell;
+      return { home, away: away(x, v), isFar, isSeen };
     });
-    if (moment.isGridMoved) {
+    if (isGridMoved) {
       pen.strokeStyle = colors.faintInk;
       pen.globalAlpha = 0.45;
       pen.lineWidth = 1;
@@ -60,13 +60,15 @@ class Sketch {
         }
       pen.stroke();
     }
-    seats.forEach(({ home, away, isFar }, i) => {
+    seats.forEach(({ home, away, isFar, isSeen }, i) => {
+      if (!isSeen) return;
       const mass = moment.isStill ? 0 : nodes.mass[i];
-      const seat = moment.isGridMoved && !isFar ? away : home;
       const radius = mass > 0 ? Math.max(NODE * cell * Math.sqrt(mass / nodes.heaviest), 1.5) : BARE;
+      const seat = isGridMoved && !isFar ? away : home;
       pen.globalAlpha = mine.has(i) ? 1 : 0.4;
-      if (isMoving && !isFar && name != "nodes to particles")
-        this.arrow(home, away, 2, colors.ink, 0, moment.isGridMoved ? radius : 0);
+      if ((name == "grid update" || name == "stress") && !isFar)
+        this.arrow(home, away, 2, colors.ink, isGridMoved ? radius : 0);
+      if (isGridMoved && !isFar) this.ring(home, 2);
       if (mass > 0) this.disc(seat, radius, colors.ink);
       else this.ring(seat, radius);
     });
@@ -93,19 +95,19 @@ class Sketch {
     pen.stroke();
   }
 
-  /** From a to b, so many pixels off either end; none where that leaves nothing. */
-  arrow(a, b, width, color, offStart, offEnd) {
+  /** From a to b, so many pixels before it; none where that leaves nothing. */
+  arrow(a, b, width, color, before) {
     const { pen } = this, [across, down] = [b[0] - a[0], b[1] - a[1]];
     const length = Math.hypot(across, down), head = Math.min(5 + 1.5 * width, 0.6 * length);
-    if (length < offStart + offEnd + 4) return;
+    if (length < before + 4) return;
     const along = (far, beside) => [
       a[0] + (across * far - down * beside) / length, a[1] + (down * far + across * beside) / length,
     ];
-    const tip = length - offEnd;
+    const tip = length - before;
     pen.strokeStyle = pen.fillStyle = color;
     pen.lineWidth = width;
     pen.beginPath();
-    pen.moveTo(...along(offStart, 0));
+    pen.moveTo(...along(0, 0));
     pen.lineTo(...along(tip - head, 0));
     pen.stroke();
     pen.beginPath();

@@ -14,9 +14,14 @@ class Walk {
   get last() { return (this.stages?.stages.length ?? 1) - 1; }
   get name() { return this.stages.stages[this.number].name; }
 
-  /** Whether the stage of a name has been taken. */
-  has(name) {
-    return this.stages.stages.findIndex(stage => stage.name == name) <= this.number;
+  /** Whether this stage, by its formulas, gives a new value to a symbol. */
+  gives(symbol, { formulas } = this.stages.stages[this.number]) {
+    return formulas.some(line => line.startsWith(`${symbol} `));
+  }
+
+  /** Whether a symbol has had its new value. */
+  hasGiven(symbol) {
+    return this.stages.stages.findIndex(stage => this.gives(symbol, stage)) <= this.number;
   }
 
   /** All of a particle in the step after frame k; its nodes have place, x, w, dw, mass and v, their
@@ -37,17 +42,15 @@ class Walk {
     const step = mine.map(({ i, w }) => nodes.velocity("grid update", i).map(v => w * v * dt))
       .reduce(added, [0, 0]);
     const v = stages.of("velocity", k, p), gain = stages.of("gain", k, p);
-    const fastest = Math.max(0, ...mine.map(({ i }) => Math.hypot(...nodes.velocity("grid update", i))));
-    const moves = this.has(this.last > 3 && this.stages.stages[3].name == "stress"
-      ? "stress" : "nodes to particles");
+    const speeds = mine.map(({ i }) => Math.hypot(...nodes.velocity("grid update", i)));
     return {
       name, dt, dx, nodes, mine, x, isStill,
       velocityOf: i => velocityIn(moving, i),
       isGridMoved: moving == "grid update",
-      step: moves ? step : [0, 0],
-      v: this.has("nodes to particles") ? added(v, gain) : v,
+      step: this.hasGiven("x_p") ? step : [0, 0],
+      v: this.hasGiven("v_p") ? added(v, gain) : v,
       L: velocityGradient(mine, x, stages.inverseMoment, dx),
-      larger: roundLength(Math.max(MOVED_CELLS * dx / (fastest * dt || Infinity), 1)),
+      larger: roundLength(Math.max(MOVED_CELLS * dx / (Math.max(...speeds) * dt || Infinity), 1)),
     };
   }
 
@@ -56,8 +59,6 @@ class Walk {
     const { film, stages } = this, { name, dt, x, step, v, L } = moment;
     const place = ["x_p", vector(added(x, step), "m", 4)];
     const velocity = ["v_p", vector(v, "m/s", 3)];
-    const rate = ["L_p", matrix(L, "1/s")];
-    const hasRate = stages.stages[this.number].formulas.some(line => line.startsWith("L_p"));
     if (name == "particles to nodes") {
       const [xx, yy, xy] = stages.of("stress", k, p), [a, b, c, d] = stages.of("gradient", k, p);
       return [
@@ -66,8 +67,8 @@ class Walk {
       ];
     }
     if (name == "grid update") return [["dt", withUnit(dt, "s")]];
-    if (name == "stress") return [rate, ...(moment.step.some(Boolean) ? [place] : [])];
-    return name == "reset" ? [place, velocity] : [velocity, ...(hasRate ? [rate] : []), place];
+    if (name == "reset") return [velocity, place];
+    return [velocity, ["L_p", matrix(L, "1/s")], place].filter(([symbol]) => this.gives(symbol));
   }
 
   show(k, p) {
@@ -126,8 +127,11 @@ function matrix(entries, unit) {
   return whole;
 }
 
+const weight = w => w > 0 && w < 5e-4 ? "< 0.001" : w.toFixed(3);
+
 /** The table of the nodes: place, weight, mass, velocity. */
-function nodeRows({ name, mine }) {
+function nodeRows({ name, mine, isStill }) {
+  if (isStill) return [];
   const row = (kind, cells) => {
     const made = make("tr", {});
     made.append(...cells.map(cell => {
@@ -145,7 +149,7 @@ function nodeRows({ name, mine }) {
   return [
     row("th", head),
     ...mine.map(({ place, w, mass, v }) => row("td", [
-      place.map(i => plain(i)).join(", "), w.toFixed(3), plain(mass, 3),
+      place.map(i => plain(i)).join(", "), weight(w), plain(mass, 3),
       v.map(entry => plain(entry / factor, 3)).join(", "),
     ])),
     row("td", [formula("sum_i"), mine.reduce((sum, { w }) => sum + w, 0).toFixed(3), "", ""]),
