@@ -92,12 +92,13 @@ class Film:
         self.times, self.ranges = np.array(times), seen
         self.scalars = [name for name in QUANTITIES if name in seen and name != "speed"]
         step = (fastest.high or 1.0) / FASTEST
-        self.channels: list[Channel | HalfChannel] = [
+        self.ranged = [
             *(its.channel(FINEST, np.uint16) for its in along),
             *[Channel(-FASTEST * step, step, np.uint8)] * self.dim,
             *(seen[name].channel(LEVELS, np.uint8) for name in self.scalars),
-            *(self.stages.channels if self.stages else ()),
         ]
+        halves = self.stages.channels if self.stages else []
+        self.channels: list[Channel | HalfChannel] = [*self.ranged, *halves]
 
     def quantized(self, number: int) -> list[np.ndarray]:
         """[n] of each channel in a frame of the recording."""
@@ -144,8 +145,7 @@ class Film:
         """The rest, JSON-able."""
         scene, dim = self.recording.scene, self.dim
         quantities = [{"name": "body", "label": "body"}, self._quantity("speed")]
-        scalars = self.channels[2 * dim : 2 * dim + len(self.scalars)]
-        for name, channel in zip(self.scalars, scalars, strict=True):
+        for name, channel in zip(self.scalars, self.ranged[2 * dim :], strict=True):
             quantities.append(self._quantity(name) | {"low": channel.low, "step": channel.step})
         images = scene.output.images
         return {
@@ -159,9 +159,9 @@ class Film:
                 "cells": scene.domain.cells,
                 "walls": self._walls(),
             },
-            "low": [channel.low for channel in self.channels[:dim]],
-            "step": [channel.step for channel in self.channels[:dim]],
-            "velocityStep": self.channels[dim].step,
+            "low": [channel.low for channel in self.ranged[:dim]],
+            "step": [channel.step for channel in self.ranged[:dim]],
+            "velocityStep": self.ranged[dim].step,
             "quantities": quantities,
             "colorBy": "speed" if images == "none" else images.color_by,
             "gridOpacity": 0.25 if images == "none" else images.grid,

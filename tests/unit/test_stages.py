@@ -148,7 +148,7 @@ def entries(value) -> list[float]:
     return [float(cell.replace("\u2212", "-")) for cell in cells]
 
 
-def table(shown) -> dict[tuple[int, int], list[float]]:
+def table(shown) -> dict[tuple[int, ...], list[float]]:
     """Weight, mass and velocity by the place of a node."""
     rows = shown.page.locator("#walk-nodes tr").all_inner_texts()[1:-1]
     return {tuple(map(int, found[:2])): found[2:] for found in map(numbers, rows)}
@@ -195,7 +195,9 @@ def test_stages_are_walked(shown, recording):
             F = np.eye(2) + stages.displacement_gradient[p]
             assert entries(values["Fp"]) == pytest.approx(F.ravel(), rel=1e-3, abs=1e-5)
         if number == 2:
-            L = sum(np.outer(stages.node_velocity[1][place[i]], dw) for i, _, _, dw in mine)
+            L = np.sum(
+                [np.outer(stages.node_velocity[1][place[i]], dw) for i, _, _, dw in mine], axis=0
+            )
             assert entries(values["Lp"]) == pytest.approx(L.ravel(), abs=2e-3 * np.abs(L).max())
             v = frame.velocity[p] + stages.velocity_gain[p]
             told = shown.ask(f"player.page.walk.moment(1, {p}).v")

@@ -127,6 +127,12 @@ function matrix(entries, unit) {
   return whole;
 }
 
+/** Of the unit in which a magnitude is a handy number. */
+function powerOfThousand(magnitude) {
+  const isHandy = magnitude == 0 || (magnitude >= 0.1 && magnitude < 1e4);
+  return isHandy ? 0 : 3 * Math.floor(Math.log10(magnitude) / 3);
+}
+
 const weight = w => w > 0 && w < 5e-4 ? "< 0.001" : w.toFixed(3);
 
 /** The table of the nodes: place, weight, mass, velocity. */
@@ -144,12 +150,13 @@ function nodeRows({ name, mine, isStill }) {
   const motion = name == "particles to nodes" ? "(m v)_i / m_i" : "v_i";
   const head = ["i", "w_ip", "m_i", motion].map(formula);
   const [factor, prefixed] = prefix(Math.max(...mine.flatMap(({ v }) => v.map(Math.abs))));
-  head[2].push(" [kg]");
+  const power = powerOfThousand(Math.max(...mine.map(({ mass }) => mass)));
+  head[2].push(" [", ...(power ? formula(`10^${power} `) : []), "kg]");
   head[3].push(` [${prefixed}m/s]`);
   return [
     row("th", head),
     ...mine.map(({ place, w, mass, v }) => row("td", [
-      place.map(i => plain(i)).join(", "), weight(w), plain(mass, 3),
+      place.map(i => plain(i)).join(", "), weight(w), plain(mass / 10 ** power, 3),
       v.map(entry => plain(entry / factor, 3)).join(", "),
     ])),
     row("td", [formula("sum_i"), mine.reduce((sum, { w }) => sum + w, 0).toFixed(3), "", ""]),
