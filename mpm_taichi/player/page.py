@@ -16,8 +16,8 @@ from string import Template
 
 from ..recording import Recording
 from ..renderers import palette
-from ..run_folder import write_text
 from ..scene import dump_scene
+from ..whole_files import write_text
 from .about import about
 from .film import Film
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import MotionError
-from ..run_folder import write_arrays
 from ..walk import Stage, Walk
+from ..whole_files import write_arrays
 from .snapshots import OVERHEAD
 
 MOVING = ("particles to nodes", "grid update", "stress")

@@ -157,6 +157,8 @@ def gravity(domain, gravity) -> Iterator[Found]:
 def names(bodies) -> Iterator[Found]:
     first = {}
     for number, body in bodies.items():
+        if not body.name.isprintable():
+            yield ("bodies", number, "name"), "must be on one line, of characters that show"
         other = first.setdefault(body.name, number)
         if other != number:
             yield (
