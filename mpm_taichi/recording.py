@@ -47,8 +47,8 @@ class RecordedFrame:
 class RecordedStages:
     """The step that follows a frame, in float32: recorders/stages.py says what is what."""
 
-    dt: float  # s, 0 where the step failed
-    place: np.ndarray  # [N, 2], int16
+    dt: float  # s, 0 where the step failed or the run ended before it
+    place: np.ndarray  # [N, 2], int32
     node_mass: np.ndarray  # [N] kg
     node_velocity: np.ndarray  # [moving stages, N, 2] m/s
     displacement_gradient: np.ndarray  # [n, 2, 2]
@@ -102,13 +102,14 @@ class Recording:
     def stages(self, number: int) -> RecordedStages:
         """Of the step that follows a frame, where the run `has_stages`."""
         path = stages_path(self.folder / "stages", number)
-        arrays = _read(path)
+        arrays = _read(path) if path.exists() else {}
         n, nodes = len(self.body), len(arrays.get("place", ()))
         shapes = {
             "dt": (), "place": (nodes, 2), "node_mass": (nodes,),
             "node_velocity": (len(moving_stages(self.scene)), nodes, 2),
             "displacement_gradient": (n, 2, 2), "cauchy_stress": (n, 3), "velocity_gain": (n, 2),
         }  # fmt: skip
+        arrays = arrays or {name: np.zeros(shape) for name, shape in shapes.items()}
         if {name: values.shape for name, values in arrays.items()} != shapes:
             raise _damaged(path, f"it does not hold the stages of {n} particles")
         return RecordedStages(float(arrays.pop("dt")), **arrays)

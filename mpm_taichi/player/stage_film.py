@@ -4,7 +4,7 @@ Particles get channels of half-precision numbers, in units of a scale, for they 
 three digits, large and small: velocity [m/s] and its gain in the step [m/s] (x, y each), Cauchy
 stress [Pa] (xx, yy, xy) and H = F - I (xx, xy, yx, yy).  Nodes lie in blocks of their own, some
 frames each, deflated, in base64.  Of a frame, little-endian: their number N (uint32); places x / dx
-[N, 2] (int16); mass [N] (kg) and velocity after each moving stage [stages, N, 2] (m/s) (float32).
+[N, 2] (int32); mass [N] (kg) and velocity after each moving stage [stages, N, 2] (m/s) (float32).
 """
 
 import base64
@@ -82,7 +82,7 @@ class StageFilm:
     def _nodes(self, number) -> bytes:
         stages = self.recording.stages(number)
         columns = (
-            (len(stages.place), "<u4"), (stages.place, "<i2"),
+            (len(stages.place), "<u4"), (stages.place, "<i4"),
             (stages.node_mass, "<f4"), (stages.node_velocity, "<f4"),
         )  # fmt: skip
         return b"".join(np.asarray(values).astype(kind).tobytes() for values, kind in columns)

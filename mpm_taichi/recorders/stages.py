@@ -1,12 +1,12 @@
 """stages/stage_0000.npz, ...: the stages of the step that follows each output, in 2D."""
 
-from itertools import takewhile
 from math import prod
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import MotionError
+from ..stage_formulas import stage_names
 from ..walk import Stage, Walk
 from ..whole_files import write_arrays
 from .snapshots import OVERHEAD
@@ -33,7 +33,7 @@ class Stages:
     N nodes that particles touch their place [N, 2] (x / dx), mass [N] (kg), and velocity after each
     of the `moving_stages` [stages, N, 2] (m/s); of the n particles, at the output, their
     displacement_gradient [n, 2, 2], cauchy_stress (xx, yy, xy) [n, 3] (Pa), and the gain of
-    velocity in the step [n, 2] (m/s).  In float32, places in int16.
+    velocity in the step [n, 2] (m/s).  In float32, places in int32.
 
     The step is taken to see it, and then taken back."""
 
@@ -55,7 +55,7 @@ class Stages:
             stages_path(self.folder, self.count),
             dt=np.float64(dt if stages else 0.0),
             **{
-                name: values.astype(np.int16 if name == "place" else np.float32)
+                name: values.astype(np.int32 if name == "place" else np.float32)
                 for name, values in columns(simulation, stages).items()
             },
         )
@@ -79,8 +79,7 @@ def look_ahead(simulation) -> dict[str, Stage]:
     fields = {name: field.to_numpy() for name, field in simulation.solver.stored.items()}
     walk = Walk(simulation)
     try:
-        walked = iter(walk.advance, None)
-        return {stage.name: stage for stage in takewhile(lambda one: one.name != "reset", walked)}
+        return {name: walk.advance() for name in stage_names(simulation.scene)}
     except MotionError:
         return {}
     finally:

@@ -1,6 +1,7 @@
 """The stages of steps: recorded, in the page, and clicked through in headless Chromium."""
 
 import base64
+import shutil
 import struct
 import zlib
 from itertools import pairwise
@@ -18,6 +19,7 @@ from mpm_taichi.recording import Recording
 from mpm_taichi.reference import bases
 from mpm_taichi.reference.kernels.stencil import stencil
 from mpm_taichi.stage_formulas import stage_names
+from mpm_taichi.whole_files import write_arrays
 from tests.command_line import SCENES
 from tests.recorded_run import turning_disk, write_run
 
@@ -121,7 +123,7 @@ def test_the_page_has_what_was_recorded(recording):
                 assert page == pytest.approx(told, rel=2**-11, abs=2**-25 * scale)
                 column += 1
         (count,) = struct.unpack_from("<I", nodes, at)
-        parts = (stages.place, "<i2"), (stages.node_mass, "<f4"), (stages.node_velocity, "<f4")
+        parts = (stages.place, "<i4"), (stages.node_mass, "<f4"), (stages.node_velocity, "<f4")
         at += 4
         for values, kind in parts:
             page = np.frombuffer(nodes, kind, values.size, at).reshape(values.shape)
@@ -133,6 +135,21 @@ def test_the_page_has_what_was_recorded(recording):
         for channel in channels:
             crc = zlib.crc32(channel[k].astype(channel.dtype.newbyteorder("<")).tobytes(), crc)
     assert f"{zlib.crc32(nodes, crc):08x}" == film.checksum == header["checksumWritten"]
+
+
+def test_a_run_that_was_cut_off_has_a_page(recording, tmp_path):
+    """The stages of the last frame may be missing, as of a run that goes on: it has no step.  A
+    file of another run is refused."""
+    folder = tmp_path / "run"
+    shutil.copytree(recording.folder, folder)
+    last = folder / "stages" / "stage_0002.npz"
+    last.unlink()
+    film = player(Recording(folder))
+    assert decoded(film.html)[0]["walk"]["lengths"] == pytest.approx([1e-3, 1e-3, 0])
+    arrays = dict(np.load(folder / "stages" / "stage_0001.npz"))
+    write_arrays(last, **arrays | {"velocity_gain": np.zeros((7, 2), np.float32)})
+    with pytest.raises(InputError, match=r"stage_0002\.npz: the recording is damaged"):
+        player(Recording(folder))
 
 
 def numbers(text: str) -> list[float]:

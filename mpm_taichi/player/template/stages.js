@@ -27,10 +27,11 @@ class Stages {
   read({ buffer, byteLength }) {
     for (let at = 0; at < byteLength;) {
       const [count] = new Uint32Array(buffer, at, 1);
-      const place = new Int16Array(buffer, at + 4, 2 * count);
-      const floats = new Float32Array(buffer, at + 4 + 4 * count, (1 + 2 * this.moving.length) * count);
+      const place = new Int32Array(buffer, at + 4, 2 * count);
+      at += 4 + place.byteLength;
+      const floats = new Float32Array(buffer, at, (1 + 2 * this.moving.length) * count);
+      at += floats.byteLength;
       this.frames.push(new Nodes(place, floats, this.moving));
-      at += 4 + 4 * count + 4 * floats.length;
     }
   }
 
@@ -59,7 +60,7 @@ class Nodes {
     return this.byPlace.get(this.key(place));
   }
 
-  key([i, j]) { return 65536 * i + j; }
+  key([i, j]) { return 2 ** 26 * i + j; }
 
   placeOf(i) { return [this.place[2 * i], this.place[2 * i + 1]]; }
 

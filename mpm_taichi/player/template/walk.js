@@ -85,7 +85,7 @@ class Walk {
     if (!this.stages.frames[k]) return say("Loading ...");
     if (p == null) return say("Click a particle.");
     if (this.film.isGone(k, p)) return say(`Particle ${p} has left.`);
-    if (this.stages.lengths[k] == 0) return say("The step after this frame has failed.");
+    if (this.stages.lengths[k] == 0) return say("No step was recorded after this frame: it failed, or the run ended.");
     const moment = this.moment(k, p), { formulas } = this.stages.stages[this.number];
     byId("walk-title").textContent = `Stage ${this.number + 1} of ${this.last + 1}: ${this.name}`;
     byId("walk-formulas").replaceChildren(...formulas.map(line => {
