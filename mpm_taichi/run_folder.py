@@ -24,6 +24,7 @@ RUN = Contents(
     (
         "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png",
         "snapshots/snapshot_*.npz", "snapshots/particles.npz", "snapshots/*.npz.part",
+        "stages/stage_*.npz", "stages/*.npz.part",
         "paraview/particles_*.vtp", "paraview/grid_*.vti", "paraview/particles.pvd",
         "paraview/grid.pvd", "paraview/*.part", "video.mp4", "video.gif", "video.webp",
         "plot.png", "plot-ledger.png", "player.html", "checkpoints/step_*.npz*", "trouble/*",
