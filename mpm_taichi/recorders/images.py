@@ -34,7 +34,8 @@ class Images:
         value = value_of(snapshot, quantity)
         if value is not None and self.style.range is None:
             self.low, self.high = min(self.low, value.min()), max(self.high, value.max())
-        frame = frame_of(simulation, quantity, value, (float(self.low), float(self.high)))
+        shown = float(self.low), float(self.high)
+        frame = frame_of(simulation, snapshot, quantity, value, shown)
         write_png(
             self.folder / f"frame_{self.count:04d}.png",
             draw(frame, self.style.grid, self.style.size),

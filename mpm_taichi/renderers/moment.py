@@ -25,9 +25,9 @@ def narrowest(quantity: str) -> tuple[float, float]:
     return (inf, -inf) if quantity == "density" else (0.0, 0.0)
 
 
-def frame_of(simulation, quantity: str, value, value_range: tuple[float, float]) -> Frame:
+def frame_of(simulation, snapshot, quantity: str, value, value_range: tuple[float, float]) -> Frame:
     """`value`: as `value_of` has it."""
-    scene, snapshot = simulation.scene, simulation.snapshot
+    scene = simulation.scene
     return Frame(
         position=snapshot.visible_position,
         radius=0.5 * snapshot.initial_volume ** (1 / scene.dimension),

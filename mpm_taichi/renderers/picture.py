@@ -132,27 +132,34 @@ def draw(frame: Frame, grid_opacity: float = 0.5, size: int = 800) -> np.ndarray
     The longer side of the domain is `size` pixels long; the margins come on top of it.  The same
     frame gives the same bytes, whatever the precision and threads of the run."""
     camera = fit(frame.domain_size, size)
-    image = draw_domain(camera, frame, grid_opacity)
+    image = draw_ground(camera, frame, grid_opacity)
+    draw_particles(image, camera, frame)
     texts = legend.scale_bar(image, camera) + texts_around(image, camera, frame)
     return legend.write(eight_bit(image), texts)
 
 
-def draw_domain(camera: Camera, frame: Frame, grid_opacity: float) -> np.ndarray:
-    """The domain and the particles as a camera sees them, on a new image of float32."""
+def draw_ground(camera: Camera, frame: Frame, grid_opacity: float) -> np.ndarray:
+    """What lies behind the particles, on a new image of float32: the domain and its grid."""
     box = np.asarray(frame.domain_size, float)
     image = backdrop(camera, box)
-    start, end = (camera.pixel_of(x) for x in box_edges(camera, box))
-    if len(box) == 2:
-        draw_grid(image, camera, frame, grid_opacity)
-        draw_lines(image, start, end, palette.LINE)
-        draw_as_discs(image, camera, frame)
-    else:
+    if len(box) == 3:
         draw_shadow(image, camera, frame)
-        draw_grid(image, camera, frame, grid_opacity)
-        draw_lines(image, start[:-3], end[:-3], palette.LINE)
-        draw_as_spheres(image, camera, frame)
-        draw_lines(image, start[-3:], end[-3:], palette.LINE, opacity=0.6)  # before the particles
+    draw_grid(image, camera, frame, grid_opacity)
+    start, end = (camera.pixel_of(x) for x in box_edges(camera, box))
+    behind = len(start) if len(box) == 2 else -3
+    draw_lines(image, start[:behind], end[:behind], palette.LINE)
     return image
+
+
+def draw_particles(image: np.ndarray, camera: Camera, frame: Frame) -> None:
+    """In 3D with the edges before them."""
+    if len(frame.domain_size) == 2:
+        draw_as_discs(image, camera, frame)
+        return
+    draw_as_spheres(image, camera, frame)
+    edges = box_edges(camera, np.asarray(frame.domain_size, float))
+    start, end = (camera.pixel_of(x)[-3:] for x in edges)
+    draw_lines(image, start, end, palette.LINE, opacity=0.6)
 
 
 def texts_around(image: np.ndarray, camera: Camera, frame: Frame) -> list[legend.Text]:

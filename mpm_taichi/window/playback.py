@@ -1,0 +1,98 @@
+"""The simulation as start, stop, step and reset move it, and what there is to show of it."""
+
+import time
+
+from ..errors import InputError, MotionError, RunError
+from .energies import Energies
+from .scales import Scales
+
+FRAMES = 300
+"""Of a whole run at the speed of the start."""
+
+FASTEST = 500
+"""Steps a frame, at most."""
+
+PATIENCE = 0.1
+"""Seconds of computing between two frames, at most: buttons answer at once."""
+
+TOGETHER = 64
+"""Steps that few particles take in one go."""
+
+
+class Playback:
+    """`snapshot`, `energies` and `scales` are those of the last moment that was sound; `fault`
+    says in words why the run has stopped for good, until `reset`.
+
+    The first step is taken and taken back here, so that kernels are compiled when a window opens.
+    """
+
+    def __init__(self, simulation):
+        self.simulation = simulation
+        fields = simulation.solver.stored
+        arrays = {name: field.to_numpy() for name, field in fields.items()}
+        self._start = simulation.state(), arrays
+        expected = simulation.end / simulation.dt
+        self.steps_per_frame = min(max(round(expected / FRAMES), 1), FASTEST)
+        self.most_steps = min(max(30, 5 * self.steps_per_frame), FASTEST)
+        self._asked = 0
+        self._carry_on(1)
+        self.reset()
+
+    @property
+    def is_done(self) -> bool:
+        return self.simulation.is_done
+
+    def start_or_stop(self) -> None:
+        self.is_running = not self.is_running and self.fault is None and not self.is_done
+
+    def step(self) -> None:
+        """Stop, and take one time step."""
+        self.is_running, self._asked = False, 1
+
+    def reset(self) -> None:
+        """To the start of the scene."""
+        self.simulation.restore(*self._start)
+        self.is_running, self._asked, self.fault = False, 0, None
+        self.energies, self.scales = Energies(), Scales(self.simulation.scene)
+        self._look()
+
+    def go_on(self) -> None:
+        """To the next moment that is shown, where the run goes on."""
+        steps = self.steps_per_frame if self.is_running else self._asked
+        self._asked = 0
+        if steps and self.fault is None and not self.is_done:
+            self._carry_on(steps)
+            if self.fault is None:
+                self._look()
+        if self.is_done or self.fault is not None:
+            self.is_running = False
+
+    def _carry_on(self, steps):
+        simulation, began = self.simulation, time.perf_counter()
+        aim = simulation.step_count + steps
+        together = TOGETHER if simulation.solver.is_whole else 1
+        try:
+            while simulation.step_count < aim and not simulation.is_done:
+                simulation.advance(min(together, aim - simulation.step_count))
+                if time.perf_counter() - began > PATIENCE:
+                    break
+        except MotionError as error:
+            self.fault = f"{error}\nReset begins again; a run would try again with shorter steps."
+        except (RunError, InputError) as error:
+            self.fault = str(error)
+
+    def _look(self):
+        try:
+            self.snapshot = self.simulation.snapshot
+            self.energies.note(self.simulation)
+            self.scales.note(self.snapshot)
+        except RunError as error:
+            self.fault = str(error)
+
+    def status(self) -> str:
+        """In a few words."""
+        if self.fault is not None:
+            return "stopped: the run went wrong"
+        if self.is_done:
+            return "done: reset to begin again"
+        return "running" if self.is_running else "stopped"
