@@ -10,6 +10,9 @@ CLICK = 4
 NEAR = 8
 """Pixels around a click in which a particle is found."""
 
+REACH = 0.75
+"""Or so many edges of the particle: more than half its diagonal, so that bodies have no gaps."""
+
 CLOSER = 1.25
 """Zoom of a key or button."""
 
@@ -43,7 +46,7 @@ def particle_at(desk: Desk, column: float, row: float) -> int | None:
     edge = snapshot.initial_volume ** (1 / snapshot.position.shape[1])
     with np.errstate(invalid="ignore"):
         distance = np.hypot(sight.column - column, sight.row - row)
-        found = np.flatnonzero(distance <= np.maximum(0.5 * edge * sight.scale, NEAR))
+        found = np.flatnonzero(distance <= np.maximum(REACH * edge * sight.scale, NEAR))
     if len(found) == 0:
         return None
     if len(desk.viewpoint.size) == 3:

@@ -8,7 +8,7 @@ PANEL = 300
 CHART = 250
 """Rows of the chart below them."""
 
-LOG = 270
+LOG = 300
 """Rows of the log, below the stage."""
 
 LEAST = 64

@@ -5,7 +5,7 @@ import numpy as np
 from .looks import Looks
 from .playback import Playback
 
-ROWS = 10
+ROWS = 8
 """Particles in the table."""
 
 HEADING = ("particle", "mass", "velocity", "stress", "strain", "kinetic energy")

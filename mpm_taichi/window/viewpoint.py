@@ -9,7 +9,7 @@ from ..renderers.camera import NARROW, TILT, TURN, Camera, corners, orientation,
 EM = 15
 """Size of the texts [pixels]."""
 
-SIDE, TOP, BOTTOM = 2 * EM, 4 * EM, 6 * EM
+SIDE, TOP, BOTTOM = 2 * EM, 4 * EM, 7 * EM
 """Room around the domain for texts [pixels]."""
 
 ZOOMS = (0.2, 400.0)
