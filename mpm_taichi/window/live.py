@@ -48,7 +48,7 @@ def watch(screen: Screen, desk: Desk, is_over=lambda: False) -> None:
         desk.playback.go_on()
         desk.resize(*screen.shape)
         screen.put(desk.picture())
-        draw_panel(screen.gui, desk)
+        draw_panel(screen, desk)
         screen.show()
         pressed, buttons = screen.pressed()
         for key in pressed:

@@ -12,27 +12,16 @@ LETTERS = 38
 """Of a line in the panel."""
 
 
-def draw_panel(gui, desk: Desk) -> None:
-    """`gui`: that of the window.  A widget returns what the user has made of it."""
-    box, layout = desk.layout.panel, desk.layout
-    with _sub_window(gui, "Controls", box, layout) as panel:
+def draw_panel(screen: Any, desk: Desk) -> None:
+    """On a Screen.  A widget returns what the user has made of it."""
+    with screen.sub_window("Controls", desk.layout.panel) as panel:
         _draw_playback(panel, desk)
         _draw_looks(panel, desk)
         _draw_view(panel, desk)
         for line in _status(desk):
             panel.text(line)
     if desk.looks.shows_log:
-        _draw_log(gui, desk)
-
-
-def _sub_window(gui, name: str, box, layout) -> Any:
-    """The words after ## are not shown: in a window of another size it is another one, since one
-    stays where it was put first."""
-    return gui.sub_window(
-        f"{name}##{layout.width} {layout.height}",
-        box.left / layout.width, box.top / layout.height,
-        box.width / layout.width, box.height / layout.height,
-    )  # fmt: skip
+        _draw_log(screen, desk)
 
 
 def _draw_playback(panel, desk):
@@ -82,9 +71,9 @@ def _status(desk):
     return lines + textwrap.wrap(desk.notice, LETTERS)
 
 
-def _draw_log(gui, desk):
+def _draw_log(screen, desk):
     looks, last = desk.looks, int(desk.playback.simulation.ranges[-1]) - 1
-    with _sub_window(gui, "Log", desk.layout.log, desk.layout) as log:
+    with screen.sub_window("Log", desk.layout.log) as log:
         looks.first = log.slider_int("First particle", looks.first, 0, last)
         for line in log_lines(desk.playback, looks):
             log.text(line)

@@ -10,6 +10,8 @@ import taichi as ti
 from PIL import Image
 from taichi.ui.utils import get_field_info
 
+from .layout import Box
+
 BUTTONS = (ti.ui.LMB, ti.ui.MMB, ti.ui.RMB)
 
 MOST_FRAMES = 30
@@ -32,7 +34,7 @@ class Screen:
             self.title, self.size, vsync=False, show_window=not self.is_hidden,
             fps_limit=MOST_FRAMES,
         )  # fmt: skip
-        self.gui = self._window.get_gui()
+        self._gui = self._window.get_gui()
         self._canvas = self._window.get_canvas()
         self._picture, self._pixels = None, None
         return self
@@ -60,6 +62,16 @@ class Screen:
             pixels = np.asarray(turned).view(np.uint32)[..., 0]
             self._picture, self._pixels = picture, np.ascontiguousarray(pixels)
         self._canvas.canvas.set_image(get_field_info(self._pixels))
+
+    def sub_window(self, name: str, box: Box) -> Any:
+        """A place for widgets.  It stays where it was first, so that in another place it is another
+        one: the words after ## tell them apart and are not shown.  Taichi reckons in parts of the
+        size that the window had at first."""
+        width, height = self.size
+        return self._gui.sub_window(
+            f"{name}##{' '.join(map(str, box))}",
+            box.left / width, box.top / height, box.width / width, box.height / height,
+        )  # fmt: skip
 
     def show(self) -> None:
         """The frame, and what the user does with it."""
