@@ -1,6 +1,7 @@
 """A run: clock, time step, schedules, recorders.  Recorders only read a Simulation."""
 
 import os
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -117,6 +118,7 @@ class Simulation:
         self.first_dt = self.dt
         self.guard_steps, self.guarded = GUARD_STEPS, 0
         self.is_started = False  # recorders have seen the start
+        self.is_amid_step = False
         self.stop_asked = False  # `advance` returns after the step or launch that it is at
         self.start_volume = sum(
             float(body.V0 @ np.linalg.det(np.eye(scene.dimension) + body.displacement_gradient))
@@ -184,16 +186,32 @@ class Simulation:
     def advance(self, most: int = MOST_TOGETHER) -> bool:
         """Up to `most` time steps, fewer where an output is due.  Returns whether they have landed
         on one."""
+        if self.is_amid_step:
+            raise RunError("this Simulation is amid a step: take its other stages first")
         take = self._take_whole_steps if self.solver.is_whole else self._take_step
         before, landing = self.step_count, False
         while not landing and self.step_count - before < most:
             landing = take(most - (self.step_count - before))
-            self._forget_moment()
-            self._look_after()
-            self.output_count += landing
+            self._settle(landing)
             if self.stop_asked:
                 break
         return landing
+
+    def stages(self) -> Iterator[str]:
+        """One time step, with a pause after each of its stages, which it names.  The particles are
+        as the stage has left them; the clock moves at the end, and nothing else can until then."""
+        landing, self.is_amid_step = self._lands, True
+        for name in self._stages():
+            self._forget_moment()
+            yield name
+        self.is_amid_step = False
+        self._settle(landing)
+
+    def _settle(self, landing):
+        """After a step or a launch of several."""
+        self._forget_moment()
+        self._look_after()
+        self.output_count += landing
 
     def _forget_moment(self):
         self.__dict__.pop("snapshot", None)
@@ -234,16 +252,25 @@ class Simulation:
         if bad < self.ranges[-1]:
             raise gone_wrong(self, bad)
 
+    @property
+    def _lands(self) -> bool:
+        """Whether the next step ends at an output."""
+        return self.time + 1.5 * self.dt > self.next_output
+
     def _take_step(self, _most) -> bool:
+        landing = self._lands
+        for _ in self._stages():
+            pass
+        return landing
+
+    def _stages(self) -> Iterator[str]:
         dt = self.dt
-        landing = self.time + 1.5 * dt > self.next_output
-        time = self.next_output if landing else self.time + dt
+        time = self.next_output if self._lands else self.time + dt
         dt_next = self._fitting(self.time_step.choose(), time)
-        motion = self.solver.step(self.time, dt, dt_next)
-        self.time_step.move(dt, motion)
+        yield from self.solver.stages(self.time, dt, dt_next)
+        self.time_step.move(dt, self.solver.motion)
         self.dt = dt_next
         self._note_steps(time, [dt], [self.time_step.code])
-        return landing
 
     def _take_whole_steps(self, most) -> bool:
         more = self.output_count + 1 < self.outputs.count

@@ -1,5 +1,6 @@
 """The step: the table of contents of the method."""
 
+from collections.abc import Iterator
 from math import inf, sqrt
 from typing import Any
 
@@ -82,6 +83,7 @@ class Solver:
         self.is_whole = pace is not None and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
         self.pace = pace
+        self.motion = Motion()  # of the last step
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
 
@@ -121,7 +123,13 @@ class Solver:
             self.sorts += 1
 
     def step(self, time, dt, dt_next) -> Motion:
-        """Advance from `time` by dt [s], the next step being of length dt_next.
+        """Advance from `time` by dt [s], the next step being of length dt_next."""
+        for _ in self.stages(time, dt, dt_next):
+            pass
+        return self.motion
+
+    def stages(self, time, dt, dt_next) -> Iterator[str]:
+        """The step, with a pause after each of its stages, which it names.
 
         USL (update stress last) takes the velocity gradient L from the new velocities of the nodes,
         which makes F the gradient of the motion; its impulse is that of the next step.  USF (first)
@@ -131,18 +139,23 @@ class Solver:
         if self.stress_update == "usf":
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
-        self.map_motion(time, dt)
+            yield "stress"
+        yield from self.map_motion(time, dt)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
         elif self.stress_update == "usf":
             self.update(dt, dt_next, stress=False)
         else:
             self.update(dt, dt_next, stress=False, move=False)
+        yield "nodes to particles"
+        if self.stress_update == "musl":
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        motion = Motion(sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None]))
-        self.drift += dt * motion.speed / self.grid.dx
-        return motion
+            yield "stress"
+        self.motion = Motion(
+            sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None])
+        )
+        self.drift += dt * self.motion.speed / self.grid.dx
 
     def take_whole_steps(self, clock: Clock, most: int):
         """Up to `most` steps as `step` would take them, in one launch."""
@@ -187,18 +200,20 @@ class Solver:
             for group in self.particles.groups
         }
 
-    def map_motion(self, time, dt):
-        """Particles to nodes, the motion of the nodes, and back."""
+    def map_motion(self, time, dt) -> Iterator[str]:
+        """Particles to nodes, the motion of the nodes, and back; a pause where nodes are done."""
         if self.body_force is not None:
             push(self.particles, self.grid, self.body_force, time, dt)
         clear(self.grid)
         p2g(self.particles, self.grid, self.basis, self.transfer)
         self.note_at_walls(dt, "given")
         fold_ghosts(self.grid, self.walls, self.gravity, dt)
+        yield "particles to nodes"
         grid_update(self.grid, self.walls, self.gravity, dt, self.tally)
         self.note_at_walls(dt, "kept")
         fill_ghosts(self.grid, self.walls, self.gravity)
         self.note_at_walls(dt, "taken")
+        yield "grid update"
         g2p(self.particles, self.grid, self.basis, self.transfer, dt=dt, tally=self.tally)
         if self.transfer.filtered:
             take_residual(
