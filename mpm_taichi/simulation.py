@@ -328,6 +328,7 @@ class Simulation:
         """Go on from a checkpoint of the same scene, version and precision."""
         for name in CLOCK:
             setattr(self, name, state[name])
+        self.is_amid_step = False
         self.time_step.restore(state["time_step"])
         self.solver.restore(state["solver"], arrays)
         self.solver.pace = self.time_step.pace

@@ -6,11 +6,14 @@ from typing import Any
 import numpy as np
 
 from .album import Album
+from .canvas import draw_canvas, draw_window
 from .layout import Layout, layout_of
 from .looks import looks_of
 from .playback import Playback
-from .stage import draw_stage, draw_window
 from .viewpoint import Viewpoint
+
+ROOMY = 100
+"""Pixels of a cell that holds arrows, nodes and numbers."""
 
 
 class Desk:
@@ -31,12 +34,25 @@ class Desk:
 
     @property
     def layout(self) -> Layout:
-        return layout_of(*self._size, self.looks.shows_log)
+        has_notes = self.looks.shows_log or self.playback.walk is not None
+        return layout_of(*self._size, has_notes)
 
     @property
     def camera(self):
-        """Of the stage now."""
-        return self.viewpoint.camera(self.layout.stage.width, self.layout.stage.height)
+        """Of the canvas now."""
+        return self.viewpoint.camera(self.layout.canvas.width, self.layout.canvas.height)
+
+    def toggle_stages(self) -> None:
+        """Step by stages, in 2D, or no longer.  The cells about the particle become large enough
+        for what is drawn in them."""
+        scene, view = self.playback.simulation.scene, self.viewpoint
+        if scene.dimension != 2:
+            return
+        self.playback.toggle_stages()
+        cell = self.camera.scale * scene.cell_size
+        if self.playback.walk is not None and cell < ROOMY:
+            view.center = np.clip(self.playback.snapshot.position[self.looks.watched], 0, view.size)
+            view.zoom_by(self.camera, ROOMY / cell)
 
     def resize(self, width: int, height: int) -> None:
         self._size = width, height
@@ -45,9 +61,11 @@ class Desk:
         self.is_closed = True
 
     def save_picture(self) -> None:
-        """Of the stage."""
-        stage = self.layout.stage
-        picture = draw_stage(self.playback, self.looks, self.viewpoint, stage.width, stage.height)
+        """Of the canvas."""
+        canvas = self.layout.canvas
+        picture = draw_canvas(
+            self.playback, self.looks, self.viewpoint, canvas.width, canvas.height
+        )
         self.notice = self.album.save(picture)
 
     def picture(self) -> np.ndarray:
@@ -56,6 +74,7 @@ class Desk:
         key = (
             self.layout, self.viewpoint.key(), looks.color_by, looks.shows_grid,
             looks.grid_opacity, looks.picked, id(playback.snapshot), playback.fault,
+            playback.walk is None,
         )  # fmt: skip
         if key != self._key:
             self._key = key

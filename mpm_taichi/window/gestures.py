@@ -29,6 +29,7 @@ def keys(desk: Desk) -> dict:
         "r": playback.reset,
         "g": looks.toggle_grid,
         "l": looks.toggle_log,
+        "t": desk.toggle_stages,
         "c": looks.next_color,
         "v": viewpoint.reset,
         "p": desk.save_picture,
@@ -40,7 +41,7 @@ def keys(desk: Desk) -> dict:
 
 
 def particle_at(desk: Desk, column: float, row: float) -> int | None:
-    """That which is seen at a pixel of the stage, in 3D the nearest to the viewer."""
+    """That which is seen at a pixel of the canvas, in 3D the nearest to the viewer."""
     snapshot = desk.playback.snapshot
     sight = desk.camera.look(snapshot.visible_position)
     edge = snapshot.initial_volume ** (1 / snapshot.position.shape[1])
@@ -55,7 +56,7 @@ def particle_at(desk: Desk, column: float, row: float) -> int | None:
 
 
 class Gestures:
-    """The mouse on the stage.  A click picks a particle.  Dragging pans in 2D and orbits in 3D;
+    """The mouse on the canvas.  A click picks a particle.  Dragging pans in 2D and orbits in 3D;
     with the right button it zooms in 2D and pans in 3D, with the middle one it zooms in 3D."""
 
     def __init__(self, desk: Desk):
@@ -67,7 +68,7 @@ class Gestures:
         """The buttons (LMB, MMB, RMB) pressed since the last time and those held now; the pixel
         (column, row) of the window that the mouse is at."""
         for button in pressed:
-            if self._button is None and self.desk.layout.stage.holds(*at):
+            if self._button is None and self.desk.layout.canvas.holds(*at):
                 self._button, self._start, self._last, self._is_drag = button, at, at, False
         if self._button is None:
             return

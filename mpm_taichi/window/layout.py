@@ -8,8 +8,8 @@ PANEL = 300
 CHART = 250
 """Rows of the chart below them."""
 
-LOG = 300
-"""Rows of the log, below the stage."""
+NOTES = 320
+"""Rows of what is told in numbers, below the canvas."""
 
 LEAST = 64
 
@@ -30,24 +30,24 @@ class Box(NamedTuple):
 class Layout(NamedTuple):
     width: int
     height: int
-    stage: Box
+    canvas: Box
     panel: Box
     chart: Box
-    log: Box
+    notes: Box
 
 
-def layout_of(width: int, height: int, shows_log: bool) -> Layout:
+def layout_of(width: int, height: int, has_notes: bool) -> Layout:
     """Whatever the size, each box has room; in a tiny window they overlap."""
     width, height = max(width, 2 * LEAST), max(height, 2 * LEAST)
     panel = min(PANEL, width - LEAST)
     chart = min(CHART, height - LEAST)
-    log = min(LOG, height - LEAST) if shows_log else 0
-    stage = Box(0, 0, width - panel, height - log)
+    notes = min(NOTES, height - LEAST) if has_notes else 0
+    canvas = Box(0, 0, width - panel, height - notes)
     return Layout(
         width,
         height,
-        stage,
-        Box(stage.width, 0, panel, height - chart),
-        Box(stage.width, height - chart, panel, chart),
-        Box(0, stage.height, stage.width, log),
+        canvas,
+        Box(canvas.width, 0, panel, height - chart),
+        Box(canvas.width, height - chart, panel, chart),
+        Box(0, canvas.height, canvas.width, notes),
     )

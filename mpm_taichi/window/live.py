@@ -2,6 +2,7 @@
 
 import sys
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
@@ -41,8 +42,8 @@ def view(scene, name: str, options, console: Console) -> int:
     return 0 if number is None else 128 + number
 
 
-def watch(screen: Screen, desk: Desk, is_over=lambda: False) -> None:
-    """Frame by frame, until the window is closed or it `is_over`."""
+def watch(screen: Any, desk: Desk, is_over=lambda: False) -> None:
+    """Frame by frame, until the Screen is closed or it `is_over`."""
     gestures, acts = Gestures(desk), keys(desk)
     while screen.is_open and not desk.is_closed and not is_over():
         desk.playback.go_on()

@@ -5,10 +5,10 @@ import numpy as np
 from .looks import Looks
 from .playback import Playback
 
-ROWS = 8
+ROWS = 9
 """Particles in the table."""
 
-HEADING = ("particle", "mass", "velocity", "stress", "strain", "kinetic energy")
+HEADING = ("particle", "mass", "velocity", "stress", "strain", "kinetic")
 UNITS = ("", "[kg]", "[m/s]", "[Pa]", "[-]", "[J]")
 
 
@@ -43,7 +43,7 @@ def table(snapshot, first: int, picked: int | None) -> list[str]:
             vector(snapshot.velocity[p]), number(stress[p]), number(np.linalg.norm(E)),
             number(kinetic[p]),
         ))  # fmt: skip
-    widths = (9, 11, 16 + 12 * (snapshot.velocity.shape[1] - 1), 11, 11, 15)
+    widths = (8, 10, 12 * snapshot.velocity.shape[1], 10, 10, 10)
     return [
         " ".join(word.rjust(width) for word, width in zip(row, widths, strict=True)) for row in rows
     ]

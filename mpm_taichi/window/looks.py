@@ -19,6 +19,11 @@ class Looks:
     first: int = 0
     picked: int | None = None
 
+    @property
+    def watched(self) -> int:
+        """The particle whose part in a stage of the step is shown."""
+        return self.picked or 0
+
     def next_color(self) -> None:
         self.color_by = COLORS[(COLORS.index(self.color_by) + 1) % len(COLORS)]
 

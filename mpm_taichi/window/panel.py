@@ -7,9 +7,13 @@ from .desk import Desk
 from .gestures import CLOSER
 from .log import log_lines
 from .looks import COLORS
+from .stage_notes import node_lines, stage_lines
 
 LETTERS = 38
 """Of a line in the panel."""
+
+STAGE = 0.42
+"""Part of the notes' width that the numbers of a stage take."""
 
 
 def draw_panel(screen: Any, desk: Desk) -> None:
@@ -20,8 +24,7 @@ def draw_panel(screen: Any, desk: Desk) -> None:
         _draw_view(panel, desk)
         for line in _status(desk):
             panel.text(line)
-    if desk.looks.shows_log:
-        _draw_log(screen, desk)
+    _draw_notes(screen, desk)
 
 
 def _draw_playback(panel, desk):
@@ -32,6 +35,10 @@ def _draw_playback(panel, desk):
         playback.step()
     if panel.button("Reset (r)"):
         playback.reset()
+    if len(desk.viewpoint.size) == 2:
+        by_stages = playback.walk is not None
+        if panel.checkbox("Step by stages (t)", by_stages) != by_stages:
+            desk.toggle_stages()
     playback.steps_per_frame = panel.slider_int(
         "Steps/frame", playback.steps_per_frame, 1, playback.most_steps
     )
@@ -71,9 +78,31 @@ def _status(desk):
     return lines + textwrap.wrap(desk.notice, LETTERS)
 
 
-def _draw_log(screen, desk):
+def _draw_notes(screen, desk):
+    """Below the canvas: the log, the stage of the step, or both beside each other."""
+    box, looks, playback = desk.layout.notes, desk.looks, desk.playback
+    if playback.walk is None:
+        if looks.shows_log:
+            _draw_log(screen, desk, box)
+        return
+    width = int(STAGE * box.width)
+    stage = playback.stage_of(looks.watched)
+    dx = playback.simulation.scene.cell_size
+    with screen.sub_window("Stage", box._replace(width=width)) as notes:
+        for line in stage_lines(stage, dx):
+            notes.text(line)
+    rest = box._replace(left=box.left + width, width=box.width - width)
+    if looks.shows_log:
+        _draw_log(screen, desk, rest)
+    else:
+        with screen.sub_window("Nodes", rest) as notes:
+            for line in node_lines(stage, dx):
+                notes.text(line)
+
+
+def _draw_log(screen, desk, box):
     looks, last = desk.looks, int(desk.playback.simulation.ranges[-1]) - 1
-    with screen.sub_window("Log", desk.layout.log) as log:
+    with screen.sub_window("Log", box) as log:
         looks.first = log.slider_int("First particle", looks.first, 0, last)
         for line in log_lines(desk.playback, looks):
             log.text(line)

@@ -3,6 +3,7 @@
 import time
 
 from ..errors import InputError, MotionError, RunError
+from ..walk import Stage, Walk
 from .energies import Energies
 from .scales import Scales
 
@@ -21,7 +22,8 @@ TOGETHER = 64
 
 class Playback:
     """`snapshot`, `energies` and `scales` are those of the last moment that was sound; `fault`
-    says in words why the run has stopped for good, until `reset`.
+    says in words why the run has stopped for good, until `reset`; with a `walk` a step is taken
+    stage by stage.
 
     The first step is taken and taken back here, so that kernels are compiled when a window opens.
     """
@@ -34,7 +36,9 @@ class Playback:
         expected = simulation.end / simulation.dt
         self.steps_per_frame = min(max(round(expected / FRAMES), 1), FASTEST)
         self.most_steps = min(max(30, 5 * self.steps_per_frame), FASTEST)
-        self._asked = 0
+        self.walk: Walk | None = None
+        self.energies, self.scales = Energies(), Scales(simulation.scene)
+        self._asked, self.is_running = 0, True
         self._carry_on(1)
         self.reset()
 
@@ -46,15 +50,34 @@ class Playback:
         self.is_running = not self.is_running and self.fault is None and not self.is_done
 
     def step(self) -> None:
-        """Stop, and take one time step."""
+        """Stop, and take one time step, or a stage of it."""
         self.is_running, self._asked = False, 1
 
     def reset(self) -> None:
         """To the start of the scene."""
         self.simulation.restore(*self._start)
+        if self.walk is not None:
+            self.walk = Walk(self.simulation)
+        self._is_at_stage = False
         self.is_running, self._asked, self.fault = False, 0, None
         self.energies, self.scales = Energies(), Scales(self.simulation.scene)
         self._look()
+
+    def toggle_stages(self) -> None:
+        """Stop, and let `step` take stages, or no longer: then the step is finished.  2D only."""
+        self.is_running = False
+        if self.walk is None:
+            self.walk = Walk(self.simulation)
+        else:
+            self._try(self._finish_step)
+            self.walk = None
+
+    def stage_of(self, particle: int) -> Stage | None:
+        """Where the walk stands, for a particle; None where it has not begun."""
+        if self.walk is None or not self._is_at_stage:
+            return None
+        self.walk.particle = particle
+        return self.walk.stage
 
     def go_on(self) -> None:
         """To the next moment that is shown, where the run goes on."""
@@ -62,37 +85,53 @@ class Playback:
         self._asked = 0
         if steps and self.fault is None and not self.is_done:
             self._carry_on(steps)
-            if self.fault is None:
-                self._look()
         if self.is_done or self.fault is not None:
             self.is_running = False
 
     def _carry_on(self, steps):
-        simulation, began = self.simulation, time.perf_counter()
-        aim = simulation.step_count + steps
-        together = TOGETHER if simulation.solver.is_whole else 1
+        by_stages = self.walk is not None and not self.is_running
+        self._try(self._take_stage if by_stages else lambda: self._take(steps))
+
+    def _try(self, act):
         try:
-            while simulation.step_count < aim and not simulation.is_done:
-                simulation.advance(min(together, aim - simulation.step_count))
-                if time.perf_counter() - began > PATIENCE:
-                    break
+            act()
+            self._look()
         except MotionError as error:
             self.fault = f"{error}\nReset begins again; a run would try again with shorter steps."
         except (RunError, InputError) as error:
             self.fault = str(error)
 
+    def _take(self, steps):
+        self._finish_step()
+        simulation, began = self.simulation, time.perf_counter()
+        aim = simulation.step_count + steps
+        together = TOGETHER if simulation.solver.is_whole else 1
+        while simulation.step_count < aim and not simulation.is_done:
+            simulation.advance(min(together, aim - simulation.step_count))
+            if time.perf_counter() - began > PATIENCE:
+                break
+
+    def _take_stage(self):
+        assert self.walk is not None
+        self.walk.advance()
+        self._is_at_stage = True
+
+    def _finish_step(self):
+        if self.walk is not None:
+            self.walk.finish()
+        self._is_at_stage = False
+
     def _look(self):
-        try:
-            self.snapshot = self.simulation.snapshot
-            self.energies.note(self.simulation)
-            self.scales.note(self.snapshot)
-        except RunError as error:
-            self.fault = str(error)
+        self.snapshot = self.simulation.snapshot
+        self.energies.note(self.simulation)
+        self.scales.note(self.snapshot)
 
     def status(self) -> str:
         """In a few words."""
         if self.fault is not None:
             return "stopped: the run went wrong"
+        if self.simulation.is_amid_step:
+            return "amid a step"
         if self.is_done:
             return "done: reset to begin again"
         return "running" if self.is_running else "stopped"

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from mpm_taichi import Simulation, load_scene
 from mpm_taichi.window.desk import Desk
 from tests.command_line import SCENES
@@ -18,6 +20,11 @@ def desk_in(folder: Path, *changes: str) -> Desk:
     return Desk(simulation(*changes), "disks", folder, *SIZE)
 
 
-def stored(simulation) -> dict[str, bytes]:
+def fields(simulation) -> dict[str, np.ndarray]:
     """All that a checkpoint would keep."""
-    return {name: field.to_numpy().tobytes() for name, field in simulation.solver.stored.items()}
+    return {name: field.to_numpy() for name, field in simulation.solver.stored.items()}
+
+
+def stored(simulation) -> dict[str, bytes]:
+    """To the last bit."""
+    return {name: values.tobytes() for name, values in fields(simulation).items()}

@@ -13,15 +13,16 @@ from mpm_taichi.recorders import Images
 from mpm_taichi.renderers import palette
 from mpm_taichi.renderers.camera import corners, fit
 from mpm_taichi.scene import Images as Style
+from mpm_taichi.window.canvas import draw_canvas
 from mpm_taichi.window.gestures import Gestures, keys, particle_at
 from mpm_taichi.window.layout import layout_of
 from mpm_taichi.window.log import green_strain, log_lines, table
 from mpm_taichi.window.looks import COLORS, looks_of
 from mpm_taichi.window.panel import draw_panel
 from mpm_taichi.window.playback import Playback
-from mpm_taichi.window.stage import draw_stage
+from mpm_taichi.window.sketch import enlargement
 from mpm_taichi.window.viewpoint import Viewpoint
-from tests.window.desks import desk_in, simulation, stored
+from tests.window.desks import desk_in, fields, simulation, stored
 
 END = 0.06
 """Seconds, that is 60 steps."""
@@ -35,6 +36,8 @@ def used_desk(tmp_path_factory):
 @pytest.fixture
 def desk(used_desk):
     """At the start, as it would be in a new window."""
+    if used_desk.playback.walk is not None:
+        used_desk.playback.toggle_stages()
     used_desk.playback.reset()
     used_desk.playback.steps_per_frame = 5
     used_desk.viewpoint.reset()
@@ -180,8 +183,9 @@ class TestPanel:
         looks, viewpoint = desk.looks, desk.viewpoint
         labels = press(desk).labels
         assert [label for label in labels if label.endswith(")")] == [
-            "Start (space)", "Step (s)", "Reset (r)", "Toggle Grid (g)", "Toggle Log (l)",
-            "Zoom in (up)", "Zoom out (down)", "Whole domain (v)", "Save picture (p)",
+            "Start (space)", "Step (s)", "Reset (r)", "Step by stages (t)", "Toggle Grid (g)",
+            "Toggle Log (l)", "Zoom in (up)", "Zoom out (down)", "Whole domain (v)",
+            "Save picture (p)",
         ]  # fmt: skip
         assert [label for label in labels if not label.endswith(")")] == [
             "Steps/frame", "Grid opacity", *(name.replace("_", " ") for name in COLORS)
@@ -237,12 +241,14 @@ class TestPanel:
         assert desk.is_closed
 
     def test_pictures_are_saved_beside_each_other(self, desk):
-        """The stage as it is shown; never over a file that is there; words where it fails."""
+        """The canvas as it is shown; never over a file that is there; words where it fails."""
         press(desk, Save_picture=True)
         keys(desk)["p"]()
         first, second = sorted(desk.album.folder.glob("disks-view-00*.png"))
-        stage = desk.layout.stage
-        expected = draw_stage(desk.playback, desk.looks, desk.viewpoint, stage.width, stage.height)
+        canvas = desk.layout.canvas
+        expected = draw_canvas(
+            desk.playback, desk.looks, desk.viewpoint, canvas.width, canvas.height
+        )
         with Image.open(second) as read:
             assert np.array_equal(np.asarray(read), expected)
         assert first.read_bytes() == second.read_bytes()
@@ -253,6 +259,104 @@ class TestPanel:
         desk.save_picture()
         assert desk.notice.startswith("not saved: ")
         desk.album.folder.mkdir()
+
+
+def assert_same(found, expected):
+    """Up to 1e-12 of the largest value of each field."""
+    assert found.keys() == expected.keys()
+    for name, values in expected.items():
+        assert np.abs(found[name] - values).max() <= 1e-12 * np.abs(values).max(), name
+
+
+class TestStages:
+    """Step takes the stages of a step, in their order, as the source slides did."""
+
+    def step(self, desk):
+        desk.playback.step()
+        desk.playback.go_on()
+        return desk.playback.stage_of(desk.looks.watched)
+
+    def test_the_order(self, desk):
+        """Four of them are the step that Step takes otherwise, up to round-off (a whole step is
+        another kernel); the numbers and formulas of each are told, and the weights of the picked
+        particle's nodes add up."""
+        playback = desk.playback
+        press(desk, Step=True)
+        playback.go_on()
+        expected = fields(playback.simulation)
+        playback.reset()
+        assert "Step takes the first stage of a step." in press(desk, Step_by_stages=True).texts
+        desk.looks.pick(100)
+        seen = []
+        for number in range(1, 5):
+            stage = self.step(desk)
+            seen.append(stage.name)
+            assert playback.simulation.step_count == (number == 4)
+            texts = press(desk).texts
+            assert any(text.startswith(f"{stage.name}; t = 0 s, dt = 0.001 s") for text in texts)
+            assert all(f"  {line}" in texts for line in stage.formula)
+            assert "  v_p = (0.1, 0.1) m/s" in texts
+            weights = [line.split() for line in texts if line.startswith("      sum ")]
+            assert weights == [["sum", "1.0000"]]
+        assert seen == ["particles to nodes", "grid update", "nodes to particles", "reset"]
+        assert_same(fields(playback.simulation), expected)
+        assert self.step(desk).name == seen[0]
+
+    @pytest.mark.parametrize("end", ["start", "toggle", "reset"])
+    def test_out_of_the_middle_of_a_step(self, desk, end):
+        """Start and the box finish the step and go on as if it had been taken whole; Reset takes it
+        back."""
+        playback = desk.playback
+        start = stored(playback.simulation)
+        desk.toggle_stages()
+        self.step(desk), self.step(desk)
+        assert playback.simulation.is_amid_step and playback.status() == "amid a step"
+        if end == "reset":
+            playback.reset()
+            assert stored(playback.simulation) == start and playback.simulation.step_count == 0
+            assert playback.stage_of(0) is None and self.step(desk).name == "particles to nodes"
+            return
+        if end == "start":
+            playback.start_or_stop()
+            playback.go_on()
+        else:
+            desk.toggle_stages()
+            playback.start_or_stop()
+            playback.go_on()
+        count = playback.simulation.step_count
+        assert count == 6 and playback.stage_of(0) is None
+        walked = fields(playback.simulation)
+        if playback.walk is not None:
+            desk.toggle_stages()
+        playback.reset()
+        for _ in range(count):
+            self.step(desk)
+        assert_same(fields(playback.simulation), walked)
+
+    def test_what_is_drawn(self, desk):
+        """The picked particle's nodes are white where they are, and after the grid update where
+        their velocity has taken them, enlarged; their weights stand beside them, and the name of
+        the stage below the title."""
+        desk.looks.pick(100)
+        desk.toggle_stages()
+        plain, white = desk.picture().astype(int), palette.eight_bit(palette.INK)
+        stage = self.step(desk)
+        image, camera = desk.picture(), desk.camera
+        for i in stage.nodes:
+            column, row = np.rint(camera.pixel_of(stage.node_position[i])).astype(int)
+            assert np.abs(image[row - 3, column - 3] - np.array(white)).max() <= 1
+        dx = desk.playback.simulation.scene.cell_size
+        stage = self.step(desk)
+        larger = enlargement(stage, dx)
+        assert 0.1 < larger * stage.dt * 0.1 * np.sqrt(2) / dx <= 0.4
+        moved = stage.node_position + larger * (stage.moved_node - stage.node_position)
+        image = desk.picture()
+        for i in stage.nodes:
+            column, row = np.rint(camera.pixel_of(moved[i])).astype(int)
+            assert np.abs(image[row, column] - np.array(white)).max() <= 1
+        title = (slice(35, 54), slice(30, 150))
+        assert (image[title] == palette.eight_bit(palette.BODIES[1])).all(-1).any()
+        assert not (plain[title] == palette.eight_bit(palette.BODIES[1])).all(-1).any()
 
 
 class TestMouse:
@@ -336,10 +440,10 @@ class TestViewpoint:
 
 
 def test_layout_of_any_size(rng):
-    """Each box has room for something, and stage and chart lie within the window."""
+    """Each box has room for something, and canvas and chart lie within the window."""
     for width, height in [(1, 1), (200, 100), (5000, 3000), *rng.integers(1, 3000, (50, 2))]:
-        layout = layout_of(width, height, shows_log=True)
-        for box in (layout.stage, layout.chart):
+        layout = layout_of(width, height, has_notes=True)
+        for box in (layout.canvas, layout.chart):
             assert box.width >= 64 and box.height >= 64
             assert box.left + box.width <= layout.width and box.top + box.height <= layout.height
 
@@ -374,7 +478,7 @@ def test_the_stage_shows_what_a_picture_shows(desk, tmp_path):
 
 
 def test_grid_numbers_and_ring_are_seen(desk):
-    """Each changes the picture of the stage where it is: off, the picture is that without it."""
+    """Each changes the picture of the canvas where it is: off, the picture is that without it."""
 
     def picture(**answers):
         press(desk, **answers)

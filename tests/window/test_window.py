@@ -65,7 +65,7 @@ def center_of(image, color) -> np.ndarray:
 
 
 def test_a_hidden_window_shows_the_picture(vulkan, tmp_path):
-    """Through Vulkan the stage comes out as it was drawn, to a bit of 8, widgets beside it: so the
+    """Through Vulkan the canvas comes out as it was drawn, to a bit of 8, widgets beside it: so the
     disks of 2 x 208 particles stand where they are, (0.2, 0.2) and (0.8, 0.8), within a pixel.
     Nothing is written where the program was started."""
     path = tmp_path / "frames.npz"
@@ -77,11 +77,11 @@ def test_a_hidden_window_shows_the_picture(vulkan, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["frames.npz"]
     assert not (ROOT / "imgui.ini").exists()
     with np.load(path) as frames:
-        first, second, stage, box = (frames[name] for name in ("first", "second", "stage", "box"))
+        first, second, canvas, box = (frames[name] for name in ("first", "second", "canvas", "box"))
     width, height = box[2:]
-    shown, drawn = second[:height, :width].astype(int), stage[:height, :width]
+    shown, drawn = second[:height, :width].astype(int), canvas[:height, :width]
     assert np.abs(shown - drawn).max() <= 1
-    whole = layout_of(*SIZE, shows_log=False).stage
+    whole = layout_of(*SIZE, has_notes=False).canvas
     camera = Viewpoint((1, 1)).camera(whole.width, whole.height)
     for body, at in ((0, 0.2), (1, 0.8)):
         expected = camera.pixel_of([at, at])
@@ -156,7 +156,8 @@ class Window:
     def place(self, wanted: str, across: float = 0.02) -> tuple[float, float]:
         """The pixel of a widget whose label begins so, as Dear ImGui lays them out: below each
         other, texts 13 pixels high and the others 19, 4 between them, from (8, 27) of the panel."""
-        panel, row = layout_of(*self.now["shape"], False).panel, 27.0
+        (width, height), row = self.now["shape"], 27.0
+        panel = layout_of(width, height, False).panel
         for kind, label in self.now["widgets"]:
             height = 13 if kind == "text" else 19
             if label.lower().startswith(wanted):
@@ -181,7 +182,7 @@ def start(display, folder) -> Window:
 @pytest.mark.slow
 def test_every_control_of_the_window(display, tmp_path):
     """A real pointer and real keys in a real window: each widget of the panel is clicked and does
-    what it says; then the stage is clicked, dragged and zoomed, keys are pressed, the window takes
+    what it says; then the canvas is clicked, dragged and zoomed, keys are pressed, the window takes
     another size, and ends with exit code 0."""
     window = start(display, tmp_path)
     try:
@@ -211,6 +212,12 @@ def _use_all(window: Window, folder: Path):
     use("toggle log", lambda now: now["shows_log"])
     window.press("l")
     window.until(lambda now: not now["shows_log"])
+    use("step by stages", lambda now: now["walks"])
+    for name in ("particles to nodes", "grid update"):
+        use("step (s)", lambda now, name=name: now["stage"] == name)
+    window.press("t")
+    window.until(lambda now: not now["walks"] and now["step"] == 1)
+    use("whole domain", lambda now: now["zoom"] == 1)
     for name in COLORS:
         use(name.replace("_", " "), lambda now, name=name: now["color_by"] == name)
     use("zoom in", lambda now: now["zoom"] == 1.25)
@@ -222,8 +229,8 @@ def _use_all(window: Window, folder: Path):
     assert [path.name for path in folder.iterdir()] == ["disks-view-001.png"]
     labels = [label.lower() for kind, label in window.now["widgets"] if kind != "text"]
     assert [label for label in labels if not any(label.startswith(word) for word in used)] == []
-    stage = layout_of(*SIZE, False).stage
-    camera = Viewpoint((1, 1)).camera(stage.width, stage.height)
+    canvas = layout_of(*SIZE, False).canvas
+    camera = Viewpoint((1, 1)).camera(canvas.width, canvas.height)
     window.drag(camera.pixel_of([0.2, 0.2]))
     window.until(lambda now: now["picked"] is not None and now["picked"] < 208)
     at = camera.pixel_of([0.5, 0.6])

@@ -37,8 +37,8 @@ def hidden(path: str) -> None:
         desk.looks.shows_log = True
         frame()
         second = frame()
-        stage, box = desk.picture(), desk.layout.stage
-    np.savez(path, first=first, second=second, stage=stage, box=box)
+        canvas, box = desk.picture(), desk.layout.canvas
+    np.savez(path, first=first, second=second, canvas=canvas, box=box)
 
 
 class Listed:
@@ -78,7 +78,8 @@ class Told:
         now = {
             "frame": self.frame, "running": playback.is_running,
             "step": playback.simulation.step_count,
-            "steps": playback.steps_per_frame, **vars(looks), "zoom": view.zoom,
+            "steps": playback.steps_per_frame, **vars(looks), "walks": playback.walk is not None,
+            "stage": getattr(playback.stage_of(0), "name", None), "zoom": view.zoom,
             "center": view.center.tolist(), "shape": list(self.screen.shape),
             "notice": desk.notice, "widgets": self.parts["Controls"].widgets,
         }  # fmt: skip

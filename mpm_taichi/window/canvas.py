@@ -14,6 +14,7 @@ from .chart import draw_chart
 from .layout import Layout
 from .looks import Looks
 from .playback import Playback
+from .sketch import draw_sketch
 from .viewpoint import EM, Viewpoint
 
 BAND = 0.75
@@ -47,7 +48,7 @@ def fault_texts(fault: str, image: np.ndarray) -> list[legend.Text]:
     """What went wrong, in words, in the upper part of the image."""
     letters = max((image.shape[1] - 4 * EM) // (EM // 2), 20)
     lines = [line for part in fault.splitlines() for line in textwrap.wrap(part, letters)]
-    top, bottom = 3 * EM, (4 + round(1.3 * len(lines))) * EM
+    top, bottom = 4 * EM, (5 + round(1.3 * len(lines))) * EM
     image[top:bottom] += BAND * (palette.BACKGROUND.astype(np.float32) - image[top:bottom])
     rows = top + EM + 1.3 * EM * np.arange(len(lines))
     return [
@@ -56,7 +57,7 @@ def fault_texts(fault: str, image: np.ndarray) -> list[legend.Text]:
     ]
 
 
-def draw_stage(
+def draw_canvas(
     playback: Playback, looks: Looks, viewpoint: Viewpoint, width: int, height: int
 ) -> np.ndarray:
     """uint8 [height, width, 3], row 0 at the top."""
@@ -65,11 +66,14 @@ def draw_stage(
     image = draw_ground(camera, frame, opacity)
     draw_cell_numbers(image, camera, frame, opacity)
     draw_particles(image, camera, frame)
-    if looks.picked is not None:
+    stage, marks = playback.stage_of(looks.watched), []
+    if stage is not None:
+        marks = draw_sketch(image, camera, stage, playback.simulation.scene.cell_size)
+    elif looks.picked is not None:
         draw_ring(image, camera, frame, looks.picked)
-    for band in (image[: 3 * EM], image[-5 * EM :]):
+    for band in (image[: round(3.6 * EM)], image[-5 * EM :]):
         band += BAND * (palette.BACKGROUND.astype(np.float32) - band)
-    texts = legend.bar_below(image, camera) + texts_around(image, camera, frame)
+    texts = marks + legend.bar_below(image, camera) + texts_around(image, camera, frame)
     if playback.fault is not None:
         texts += fault_texts(playback.fault, image)
     return legend.write(eight_bit(image), texts)
@@ -78,12 +82,12 @@ def draw_stage(
 def draw_window(
     playback: Playback, looks: Looks, viewpoint: Viewpoint, layout: Layout
 ) -> np.ndarray:
-    """uint8 of the whole window: the stage, the chart, and room for widgets."""
+    """uint8 of the whole window: the canvas, the chart, and room for widgets."""
     image = np.empty((layout.height, layout.width, 3), np.uint8)
     image[:] = palette.eight_bit(palette.BACKGROUND)
-    stage, chart = layout.stage, layout.chart
-    image[: stage.height, : stage.width] = draw_stage(
-        playback, looks, viewpoint, stage.width, stage.height
+    canvas, chart = layout.canvas, layout.chart
+    image[: canvas.height, : canvas.width] = draw_canvas(
+        playback, looks, viewpoint, canvas.width, canvas.height
     )
     image[chart.top :, chart.left :] = draw_chart(
         playback.energies, playback.simulation.end, chart.width, chart.height
