@@ -60,6 +60,7 @@ LIBRARIES = {
 PROGRAMS = {
     "a window without a display": {"xvfb-run": "xvfb", "xauth": "xauth"},
     "clicking tests of the player": {"chromium": "chromium"},
+    "clicking tests of the window": {"Xvfb": "xvfb", "xdotool": "xdotool"},
 }
 
 DRIVERS = ("/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d")
