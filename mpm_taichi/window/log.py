@@ -5,7 +5,7 @@ import numpy as np
 from .looks import Looks
 from .playback import Playback
 
-ROWS = 9
+ROWS = 12
 """Particles in the table."""
 
 HEADING = ("particle", "mass", "velocity", "stress", "strain", "kinetic")
@@ -49,22 +49,25 @@ def table(snapshot, first: int, picked: int | None) -> list[str]:
     ]
 
 
+def components(matrix: np.ndarray, dim: int) -> str:
+    """Of a symmetric matrix, xx first; in 2D without those that are 0."""
+    names = "xx", "yy", "zz", "xy", *(("yz", "zx") if dim == 3 else ())
+    at = {name: ("xyz".index(name[0]), "xyz".index(name[1])) for name in names}
+    return ", ".join(
+        f"{name} {number(matrix[place])}" for name, place in at.items() if max(place) < len(matrix)
+    )
+
+
 def details(playback: Playback, picked: int) -> list[str]:
     """All numbers of one particle."""
-    snapshot, simulation = playback.snapshot, playback.simulation
-    dim = snapshot.position.shape[1]
-    names = [f"{'xyz'[a]}{'xyz'[b]}" for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))]
-    places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]
-    sigma, E = snapshot.cauchy_stress[picked], green_strain(snapshot.deformation_gradient[picked])
-    stress = [f"{name} {number(sigma[at])}" for name, at in zip(names, places, strict=True)
-              if dim == 3 or at in ((0, 0), (1, 1), (2, 2), (0, 1))]  # fmt: skip
-    strain = [f"{name} {number(E[at])}" for name, at in zip(names, places, strict=True)
-              if max(at) < dim]  # fmt: skip
+    snapshot, dim = playback.snapshot, playback.snapshot.position.shape[1]
+    E = green_strain(snapshot.deformation_gradient[picked])
     return [
-        f"{simulation.describe_particle(picked)} at {vector(snapshot.position[picked])} m, "
+        f"{playback.simulation.describe_particle(picked)} at {vector(snapshot.position[picked])} m",
         f"density {number(snapshot.density[picked])} kg/m^3, "
         f"plastic strain {number(snapshot.plastic_strain[picked])}",
-        f"stress [Pa] {', '.join(stress)};  strain [-] {', '.join(strain)}",
+        f"stress [Pa] {components(snapshot.cauchy_stress[picked], dim)}",
+        f"strain [-] {components(E, dim)}",
     ]
 
 
@@ -73,7 +76,8 @@ def log_lines(playback: Playback, looks: Looks) -> list[str]:
     sums = ", ".join(f"{name} {number(values[-1])}" for name, values in energies.curves().items())
     lines = [
         f"step {playback.snapshot.step}, t = {playback.snapshot.time:.6g} s, "
-        f"dt = {simulation.last_dt or simulation.dt:.3g} s; energy [J]: {sums}",
+        f"dt = {simulation.last_dt or simulation.dt:.3g} s",
+        f"energy [J]: {sums}",
     ]
     if looks.picked is not None:
         lines += details(playback, looks.picked)
