@@ -73,7 +73,7 @@ class Desk:
         looks, playback = self.looks, self.playback
         key = (
             self.layout, self.viewpoint.key(), looks.color_by, looks.shows_grid,
-            looks.grid_opacity, looks.picked, id(playback.snapshot), playback.fault,
+            looks.grid_opacity, looks.picked, playback.looks_taken, playback.fault,
             playback.walk is None,
         )  # fmt: skip
         if key != self._key:

@@ -23,7 +23,7 @@ TOGETHER = 64
 class Playback:
     """`snapshot`, `energies` and `scales` are those of the last moment that was sound; `fault`
     says in words why the run has stopped for good, until `reset`; with a `walk` a step is taken
-    stage by stage.
+    stage by stage.  `looks_taken` counts the moments there were to show.
 
     The first step is taken and taken back here, so that kernels are compiled when a window opens.
     """
@@ -37,8 +37,8 @@ class Playback:
         self.steps_per_frame = min(max(round(expected / FRAMES), 1), FASTEST)
         self.most_steps = min(max(30, 5 * self.steps_per_frame), FASTEST)
         self.walk: Walk | None = None
+        self.looks_taken = 0
         self.energies, self.scales = Energies(), Scales(simulation.scene)
-        self._asked, self.is_running = 0, True
         self._carry_on(1)
         self.reset()
 
@@ -123,6 +123,7 @@ class Playback:
 
     def _look(self):
         self.snapshot = self.simulation.snapshot
+        self.looks_taken += 1
         self.energies.note(self.simulation)
         self.scales.note(self.snapshot)
 
