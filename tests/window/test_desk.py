@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from mpm_taichi.window.log import green_strain, log_lines, table
 from mpm_taichi.window.looks import COLORS, looks_of
 from mpm_taichi.window.panel import draw_panel
 from mpm_taichi.window.playback import Playback
+from mpm_taichi.window.scales import Scales
 from mpm_taichi.window.sketch import enlargement
 from mpm_taichi.window.viewpoint import Viewpoint
 from tests.window.desks import desk_in, fields, simulation, stored
@@ -351,8 +353,8 @@ class TestStages:
         assert 0.1 < larger * stage.dt * 0.1 * np.sqrt(2) / dx <= 0.4
         moved = stage.node_position + larger * (stage.moved_node - stage.node_position)
         image = desk.picture()
-        for i in stage.nodes:
-            column, row = np.rint(camera.pixel_of(moved[i])).astype(int)
+        for i in stage.nodes:  # beside the arrow to the upper right
+            column, row = np.rint(camera.pixel_of(moved[i])).astype(int) + 6
             assert np.abs(image[row, column] - np.array(white)).max() <= 1
         title = (slice(35, 54), slice(30, 150))
         assert (image[title] == palette.eight_bit(palette.BODIES[1])).all(-1).any()
@@ -475,6 +477,24 @@ def test_the_stage_shows_what_a_picture_shows(desk, tmp_path):
             at = centroid(image, palette.BODIES[body], bottom)
             places.append((at - one.pixel_of([0, 0])) / one.scale)
         assert np.abs(places[0] - places[1]).max() * plain.scale < 0.5
+
+
+@pytest.mark.parametrize("color_by", ["stress", "density", "pressure"])
+def test_the_ranges_of_the_colors_are_those_of_pictures(desk, tmp_path, color_by):
+    """With pictures of the same moments: the widest so far, or what the scene says."""
+    simulation = desk.playback.simulation
+    recorder = Images(tmp_path, simulation, Style(color_by=color_by, size=64))
+    simulation.solver.particles.H.fill(1e-3)
+    desk.playback.step()
+    recorder.record(simulation, is_output=True)
+    for _ in range(3):
+        desk.playback.go_on()
+        desk.playback.step()
+        recorder.record(simulation, is_output=True)
+    assert desk.playback.scales.of(color_by) == (recorder.low, recorder.high)
+    assert recorder.high > recorder.low
+    given = SimpleNamespace(output=SimpleNamespace(images=Style(color_by="stress", range=[1, 2])))
+    assert Scales(given).of("stress") == (1, 2) and Scales(given).of("body") == (0, 1)
 
 
 def test_grid_numbers_and_ring_are_seen(desk):
