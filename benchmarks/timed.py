@@ -20,7 +20,7 @@ from mpm_taichi.kernels.p2g import p2g
 from mpm_taichi.kernels.residual import take_residual
 from mpm_taichi.kernels.sort import sort
 from mpm_taichi.kernels.whole_steps import Clock
-from mpm_taichi.time_step import HUGE, Pace
+from mpm_taichi.time_step import HUGE, Motion, Pace
 
 SORTS, STEPS = 3, 3  # of a turn, and steps before each sort
 TOGETHER = 64  # steps in a launch
@@ -156,10 +156,10 @@ class SmallScene:
             self.dt, safety=1, acoustic=HUGE, wave_speed=1, constant=HUGE, travel=HUGE,
             deformation=HUGE, growth=1,
         )  # fmt: skip
-        self.whole, _ = our_solver(dim, particles, form, pace=given)
+        self.whole, _ = our_solver(dim, particles, form, whole=True)
         if not self.whole.is_whole:
             raise ValueError(f"{form}, {particles} particles: no whole steps in one launch")
-        self.clock = Clock(0.0, self.dt, 1e6 * self.dt, 0.0, self.dt, 0.0, 0.0, np.inf)
+        self.clock = Clock(0.0, self.dt, 1e6 * self.dt, 0.0, self.dt, Motion(), np.inf, given)
         for solver in (self.by_stage, self.whole):
             solver.start(self.dt)
         for function in (self._whole, self._by_stage):

@@ -9,7 +9,7 @@ from . import checkpoints
 from .errors import InputError, MotionError
 from .identity import identity
 from .interruption import Interrupted
-from .recorders import Errors, History, Images, Keeper, ParaView, Snapshots
+from .recorders import Errors, History, Images, Keeper, ParaView, Snapshots, Stages
 from .recorders.snapshots import wants_snapshots
 from .simulation import Simulation
 
@@ -79,6 +79,8 @@ class Attempts:
             plans.append((Snapshots, "snapshots"))
         if output.paraview:
             plans.append((ParaView, "paraview", getattr(output.paraview, "grid", False)))
+        if output.stages:  # last: it leaves other values at the nodes
+            plans.append((Stages, "stages"))
         with contextlib.ExitStack() as stack:
             self.recorders = []
             for kind, name, *how in plans:

@@ -6,10 +6,8 @@
 Each file is whole or not there: written beside, flushed to the disk, then renamed.  A checkpoint
 counts if its checksum says so; the last two are kept.  No pickles."""
 
-import contextlib
 import hashlib
 import json
-import os
 import zipfile
 from collections.abc import Iterable
 from pathlib import Path
@@ -18,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .errors import InputError
+from .whole_files import on_the_disk
 
 FORMAT = 1
 KEPT = 2
@@ -36,12 +35,12 @@ def save(folder: Path, step: int, meta: dict[str, Any], fields: dict[str, Any]) 
     is older than the last two goes when the new one is safe."""
     folder.mkdir(exist_ok=True)
     path = folder / f"step_{step:09d}.npz"
-    with _replacing(path) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
+    with on_the_disk(path) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
         text = json.dumps(meta | {"format": FORMAT}).encode()
         _add(archive, "meta", np.frombuffer(text, np.uint8))
         for name, field in fields.items():
             _add(archive, name, field.to_numpy())
-    with _replacing(_checksum(path)) as file:
+    with on_the_disk(_checksum(path)) as file:
         file.write(f"{_digest(path)}  {path.name}\n".encode())
     for old in newest_first(folder)[KEPT:]:
         _checksum(old).unlink(missing_ok=True)
@@ -106,30 +105,3 @@ def _digest(path: Path) -> str:
 
 def _parts(file) -> Iterable[bytes]:
     return iter(lambda: file.read(2**20), b"")
-
-
-@contextlib.contextmanager
-def _replacing(path: Path):
-    """A file to write that takes the place of `path` when it is whole and on the disk."""
-    part = path.with_name(path.name + ".part")
-    try:
-        with part.open("wb") as file:
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
-        part.replace(path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            part.unlink()
-        raise
-    sync_folder(path.parent)
-
-
-def sync_folder(folder: Path) -> None:
-    """The names in a folder are on the disk too (where a system can say so)."""
-    with contextlib.suppress(OSError, AttributeError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)

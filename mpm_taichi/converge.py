@@ -18,6 +18,7 @@ from .report import versions
 from .scene import Scene, dump_scene
 from .simulation import Simulation
 from .study import Level, Study
+from .whole_files import write_json, write_text
 from .yardsticks import ErrorsToExact, ResultsAtEnd
 
 
@@ -48,7 +49,7 @@ def converge(scene: Scene, name: str, options, console: Console) -> int:
             soft_wrap=True,
         )
     try:
-        run_folder.write_text(folder / "scene.yaml", dump_scene(scene))
+        write_text(folder / "scene.yaml", dump_scene(scene))
         status, code = _run_levels(scenes, simulation, study, folder, options, console)
         _write(folder, study, status, simulation)
         _draw(folder, study, scene.title or name)
@@ -114,8 +115,8 @@ def _write(folder: Path, study: Study, status: str, simulation: Simulation) -> N
         "device": simulation.device,
         "precision": simulation.precision,
     }
-    run_folder.write_json(folder / "converge.json", content | study.content())
-    run_folder.write_text(folder / "converge.csv", study.csv())
+    write_json(folder / "converge.json", content | study.content())
+    write_text(folder / "converge.csv", study.csv())
 
 
 def _draw(folder: Path, study: Study, title: str) -> None:

@@ -16,6 +16,7 @@ from .materials import Material
 from .materials.presets import PRESETS
 from .scene import load_material, load_scene
 from .scene.wording import suggestion
+from .whole_files import beside
 
 COMPONENTS = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1)}
 """The others vanish on every path."""
@@ -98,6 +99,8 @@ def _borrowed(law: str) -> tuple[dict, str]:
 def _picture_path(wanted: Path | None, overwrite: bool, what: str) -> Path:
     """`wanted`, or the first free one of runs/curve-<what>-001.png, -002, ..."""
     if wanted is None:
+        if overwrite:
+            raise InputError("--overwrite: is for -o FILE.png, which names a picture")
         name = Path(what).name.replace(".yaml", "").replace(":", "-")
         numbered = (Path("runs") / f"curve-{name}-{number:03d}.png" for number in count(1))
         return next(path for path in numbered if not _taken(path))
@@ -118,7 +121,7 @@ def _taken(picture: Path) -> bool:
 def _write_table(path: Path, paths: list[str], s: np.ndarray, found: Response) -> None:
     """SI units; a row for each strain of each path."""
     scalars = ("volume_ratio", "plastic_strain", "energy_density", "dissipated_energy")
-    with path.open("w", newline="") as file:
+    with beside(path) as part, part.open("w", newline="") as file:
         table = csv.writer(file)
         table.writerow(["path", "strain", *(f"stress_{key}" for key in COMPONENTS), *scalars])
         for number, name in enumerate(paths):

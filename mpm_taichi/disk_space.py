@@ -7,6 +7,7 @@ from .errors import InputError
 from .memory import size
 from .recorders.paraview import paraview_bytes
 from .recorders.snapshots import snapshot_bytes, wants_snapshots
+from .recorders.stages import stages_bytes
 
 SPARE = 100 * 2**20
 """Bytes left for what is small: the history, pictures, the report."""
@@ -21,6 +22,8 @@ def planned_disk(simulation) -> dict[str, int]:
         found["snapshots"] = outputs * snapshot_bytes(scene, count) + 9 * count
     if scene.output.paraview:
         found["paraview"] = outputs * paraview_bytes(scene, count)
+    if scene.output.stages:
+        found["stages"] = outputs * stages_bytes(scene, count)
     return found
 
 

@@ -105,9 +105,10 @@ class Grid(NodeLayout):
         self.placed: Any = ti.field(int, ())
         self.lowest: Any = ti.Vector.field(self.dim, int, ())  # first node of a stencil
         self.highest: Any = ti.Vector.field(self.dim, int, ())
-        # Largest of all particles in this step: |sum_i w_i v_i|^2, |L|^2 (Frobenius).
+        # Largest of all particles in this step: |sum_i w_i v_i|^2, |L|^2 (Frobenius), - tr L.
         self.speed_squared: Any = ti.field(float, ())
         self.rate_squared: Any = ti.field(float, ())
+        self.compression: Any = ti.field(float, ())
         self.cut: Any = ti.field(int, ())  # nodes that the cut-off emptied, counted each step
         numbers = {
             "dx": dx,

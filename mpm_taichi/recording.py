@@ -15,6 +15,7 @@ import numpy as np
 from .errors import InputError
 from .history_table import read_history
 from .recorders.snapshots import SCALARS, numbered
+from .recorders.stages import moving_stages, stages_path
 from .run_folder import read_report
 from .scene import Scene, load_scene
 
@@ -40,6 +41,19 @@ class RecordedFrame:
         """[n] J; 0 of particles that were deleted."""
         gone = np.isnan(self.position[:, 0])
         return np.where(gone, 0, 0.5 * self.mass * self.scalars["speed"] ** 2)
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedStages:
+    """The step that follows a frame, in float32: recorders/stages.py says what is what."""
+
+    dt: float  # s, 0 where the step failed
+    place: np.ndarray  # [N, 2], int16
+    node_mass: np.ndarray  # [N] kg
+    node_velocity: np.ndarray  # [moving stages, N, 2] m/s
+    displacement_gradient: np.ndarray  # [n, 2, 2]
+    cauchy_stress: np.ndarray  # [n, 3] Pa
+    velocity_gain: np.ndarray  # [n, 2] m/s
 
 
 class Recording:
@@ -79,6 +93,25 @@ class Recording:
         return RecordedFrame(
             float(time), int(step), position, velocity, self.mass, {"speed": speed, **arrays}
         )
+
+    @property
+    def has_stages(self) -> bool:
+        """Whether the scene asked for them."""
+        return self.scene.output.stages
+
+    def stages(self, number: int) -> RecordedStages:
+        """Of the step that follows a frame, where the run `has_stages`."""
+        path = stages_path(self.folder / "stages", number)
+        arrays = _read(path)
+        n, nodes = len(self.body), len(arrays.get("place", ()))
+        shapes = {
+            "dt": (), "place": (nodes, 2), "node_mass": (nodes,),
+            "node_velocity": (len(moving_stages(self.scene)), nodes, 2),
+            "displacement_gradient": (n, 2, 2), "cauchy_stress": (n, 3), "velocity_gain": (n, 2),
+        }  # fmt: skip
+        if {name: values.shape for name, values in arrays.items()} != shapes:
+            raise _damaged(path, f"it does not hold the stages of {n} particles")
+        return RecordedStages(float(arrays.pop("dt")), **arrays)
 
     def __iter__(self) -> Iterator[RecordedFrame]:
         return (self[number] for number in range(len(self)))

@@ -22,6 +22,7 @@ from .report import Report, whom
 from .scene import dump_scene
 from .simulation import Simulation
 from .trouble import write_trouble
+from .whole_files import write_json, write_text
 
 
 def run(scene, name, options, console: Console) -> int:
@@ -41,8 +42,8 @@ def carry_out(attempts: Attempts, options, console: Console, began: float, befor
     folder, report = attempts.folder, Report(attempts, sys.argv[1:], before)
     status, error, code = "done", None, 0
     try:
-        run_folder.write_text(folder / "scene.yaml", dump_scene(attempts.simulation.scene))
-        run_folder.write_json(folder / "run.json", report.content("running"))
+        write_text(folder / "scene.yaml", dump_scene(attempts.simulation.scene))
+        write_json(folder / "run.json", report.content("running"))
         with Interruption() as interruption, Progressing(console, began) as progressing:
             interruption.watch(attempts.simulation)
             attempts.run([interruption, progressing])
@@ -58,11 +59,11 @@ def carry_out(attempts: Attempts, options, console: Console, began: float, befor
         status, error, code = "failed", f"writing to {folder} failed: {failure}", 1
     except BaseException as fault:
         with contextlib.suppress(OSError):
-            run_folder.write_json(folder / "run.json", report.content("failed", repr(fault)))
+            write_json(folder / "run.json", report.content("failed", repr(fault)))
         raise
     content = report.content(status, error)
     try:
-        run_folder.write_json(folder / "run.json", content)
+        write_json(folder / "run.json", content)
     except OSError as failure:
         status, error, code = "failed", error or f"writing to {folder} failed: {failure}", code or 1
     for warning, count in content["warnings"].items():

@@ -6,8 +6,6 @@ from itertools import count
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 from .errors import InputError
 
 
@@ -26,6 +24,7 @@ RUN = Contents(
     (
         "scene.yaml", "history.csv", "errors.csv", "frames/frame_*.png",
         "snapshots/snapshot_*.npz", "snapshots/particles.npz", "snapshots/*.npz.part",
+        "stages/stage_*.npz", "stages/*.npz.part",
         "paraview/particles_*.vtp", "paraview/grid_*.vti", "paraview/particles.pvd",
         "paraview/grid.pvd", "paraview/*.part", "video.mp4", "video.gif", "video.webp",
         "plot.png", "plot-ledger.png", "player.html", "checkpoints/step_*.npz*", "trouble/*",
@@ -38,8 +37,17 @@ STUDY = Contents(
 
 def refuse(wanted: Path | None, overwrite: bool, contents: Contents = RUN) -> None:
     """InputError where `create` would have to touch what is not a run, or was not asked to."""
-    if wanted is None or not wanted.exists():
+    if wanted is None:
+        if overwrite:
+            raise InputError(
+                f"--overwrite: is for -o DIR; without it a {contents.noun} gets a new folder"
+            )
         return
+    try:
+        if not wanted.exists():
+            return
+    except OSError as error:  # a name that is too long
+        raise InputError(f"-o: {error.strerror}: {wanted}") from None
     if not wanted.is_dir():
         raise InputError(f"-o {wanted}: this is a file; name a folder for the {contents.noun}")
     if not any(wanted.iterdir()):
@@ -84,25 +92,6 @@ def _first_free(parent: Path, name: str) -> Path:
         except FileExistsError:
             continue
     raise AssertionError  # count() does not end
-
-
-def write_text(path: Path, text: str) -> None:
-    """Atomic: the file is the old one or the new one, never a part."""
-    part = path.with_name(path.name + ".part")
-    part.write_text(text, encoding="utf-8")
-    part.replace(path)
-
-
-def write_json(path: Path, content: dict) -> None:
-    write_text(path, json.dumps(content, indent=2) + "\n")
-
-
-def write_arrays(path: Path, **arrays) -> None:
-    """An .npz file, not compressed; atomic."""
-    part = path.with_name(path.name + ".part")
-    with part.open("wb") as file:
-        np.savez(file, **arrays)
-    part.replace(path)
 
 
 def read_report(folder: Path) -> dict:

@@ -97,7 +97,7 @@ class Simulation:
                 mass_cutoff=method.mass_cutoff, periodic=scene.domain.periodic,
                 stress_update=method.stress_update, filter_order=method.filter_order,
                 flip_part=method.flip_part, body_force=scene.field(scene.body_force),
-                audited=scene.output.audit, pace=self.time_step.pace, threads=self.threads,
+                audited=scene.output.audit, whole=True, threads=self.threads,
                 atomic=device != "cpu",
             )  # fmt: skip
         except (RuntimeError, MemoryError):  # Taichi's allocator says no more than that
@@ -278,13 +278,13 @@ class Simulation:
         clock = Clock(
             self.time, self.dt, self.next_output,
             self.outputs.time(self.output_count + 2) if more else 0.0,
-            rule.last, rule.motion.speed, rule.motion.rate, self.solver.drift, rule.strain_left,
+            rule.last, rule.motion, self.solver.drift, rule.pace, rule.growth_left,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
         together = min(most, MOST_TOGETHER, patience, self.guard_steps)
         self.solver.take_whole_steps(clock, int(together))
-        self.dt, rule.last, rule.strain_left = clock.dt, clock.last, clock.strain_left
-        rule.motion = Motion(clock.speed, clock.rate)
+        self.dt = clock.dt
+        rule.take_up(clock)
         self._note_steps(clock.time, clock.lengths.tolist(), clock.bounds.tolist())
         landing = clock.time == self.next_output
         if not clock.is_good:
@@ -300,7 +300,6 @@ class Simulation:
     def _look(self):
         """At the stiffness that all particles have now."""
         self.time_step.see(self.solver.stiffness())
-        self.solver.pace = self.time_step.pace
 
     def run(self, recorders=()) -> None:
         """Step to the end.  Each recorder sees the start, every output and every step; one that has
@@ -331,7 +330,6 @@ class Simulation:
         self.is_amid_step = False
         self.time_step.restore(state["time_step"])
         self.solver.restore(state["solver"], arrays)
-        self.solver.pace = self.time_step.pace
         self._forget_moment()
         self._forget_masses()
         self.guard()
@@ -339,7 +337,6 @@ class Simulation:
     def shorten_steps(self, reduction: float) -> None:
         """From the second one on: the impulse of the first is with the particles already."""
         self.time_step.reduction = reduction
-        self.solver.pace = self.time_step.pace
 
     def _steps_to_next_record(self, recorders):
         if self.step_count == 0:  # the first step compiles

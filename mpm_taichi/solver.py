@@ -41,8 +41,7 @@ class Solver:
     particle are taken as empty.  `stress_update` is usl, musl or usf; `flip_part(dt)` the FLIP part
     of a blend, `filter_order` that of XPIC, `body_force` a field b(X, x, t) [m/s^2] or None.
 
-    With the rule `pace` of the length of steps few particles take whole steps in one launch,
-    whatever `threads` is.
+    With `whole` few particles take whole steps in one launch, whatever `threads` is.
 
     `threads` workers share the work on a CPU, and the result does not depend on it; `atomic` is the
     form for GPUs."""
@@ -50,7 +49,7 @@ class Solver:
     def __init__(
         self, bodies, cells, dx, basis, transfer, walls, gravity, mass_cutoff=None, periodic=(),
         stress_update="usl", flip_part=None, filter_order=1, body_force=None,
-        audited=False, pace=None, threads=1, atomic=False,
+        audited=False, whole=False, threads=1, atomic=False,
     ):  # fmt: skip
         self.basis, self.transfer, self.walls = basis, transfer, walls
         self.stress_update, self.body_force = stress_update, body_force
@@ -80,9 +79,8 @@ class Solver:
                 body_force is not None,
             )  # fmt: skip
         few = self.particles.count <= FEW and not atomic
-        self.is_whole = pace is not None and few and stress_update == "usl"
+        self.is_whole = whole and few and stress_update == "usl"
         self.is_whole = self.is_whole and not transfer.filtered
-        self.pace = pace
         self.motion = Motion()  # of the last step
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
@@ -153,8 +151,9 @@ class Solver:
             self.update(dt, dt_next, velocity=False)
             yield "stress"
         self.motion = Motion(
-            sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None])
-        )
+            sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None]),
+            self.grid.compression[None],
+        )  # fmt: skip
         self.drift += dt * self.motion.speed / self.grid.dx
 
     def take_whole_steps(self, clock: Clock, most: int):
@@ -163,7 +162,7 @@ class Solver:
         clock.drift = self.drift
         whole_steps(
             self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
-            self.body_force, self.flip_part, self.pace, clock, most, self.tally,
+            self.body_force, self.flip_part, clock, most, self.tally,
         )  # fmt: skip
         self.drift = clock.drift
 

@@ -6,12 +6,18 @@ r_ip = x_i - x_p, V_p is the volume at the start and tau_p = J_p sigma_p (Kirchh
 from .scene import Scene
 from .transfers import FLIPBlend
 
-STAGES = ("stress", "particles to nodes", "grid update", "nodes to particles", "reset")
-"""All that there are; the first is one of its own unless the method updates the stress last."""
-
 GRADIENT, MOMENT = "sum_i v_i grad w_ip^T", "sum_i w_ip v_i r_ip^T D^-1"
 MOVE = "x_p <- x_p + dt sum_i w_ip v_i"
 STRESS = ("F_p <- (I + dt L_p) F_p", "tau_p from F_p, L_p by the law of the material")
+
+
+def stage_names(scene: Scene) -> tuple[str, ...]:
+    """The stages of a step, in order: `Solver.stages` and the reset of the nodes.  A stress that is
+    updated last is part of the way from nodes to particles."""
+    names = ["particles to nodes", "grid update", "nodes to particles", "reset"]
+    if scene.method.stress_update != "usl":
+        names.insert(0 if scene.method.stress_update == "usf" else 3, "stress")
+    return tuple(names)
 
 
 def formulas(scene: Scene, stage: str) -> tuple[str, ...]:
@@ -36,7 +42,7 @@ def formulas(scene: Scene, stage: str) -> tuple[str, ...]:
     if stage == "stress":
         given = "w_ip (m_p v_p + A_p r_ip)" if transfer.affine else "w_ip m_p v_p"
         now = f"v_i = sum_p {given} / m_i"
-        move = (MOVE,) if order == "musl" else ()
+        move = (f"{MOVE}, v_i of the grid update",) if order == "musl" else ()
         return (now, f"L_p = {GRADIENT}", *STRESS, *move)
     return ("m_i <- 0, v_i <- 0", "x_i <- i dx")
 

@@ -30,6 +30,9 @@ GROWTH = 1.02
 the next: steps that follow the phase of an oscillation would feed energy into it.  Steps are cut
 further, at most in half, to land on outputs."""
 
+MOST_GROWTH = log(3)
+"""Of the logarithm of the moduli of any particle between two looks at them."""
+
 HUGE = 1e150
 """A limit [s] that limits nothing, and the inverse of a speed that counts as none."""
 
@@ -39,11 +42,12 @@ on the motion."""
 
 
 class Motion(NamedTuple):
-    """The largest speed |sum_i w_i v_i| [m/s] and the largest |grad v| (Frobenius norm) [1/s] of
-    all particles."""
+    """The largest speed |sum_i w_i v_i| [m/s], |grad v| (Frobenius norm) [1/s] and compression
+    - div v [1/s] of all particles; the latter is never below 0."""
 
     speed: float = 0.0
     rate: float = 0.0
+    compression: float = 0.0
 
 
 class Stiffness(NamedTuple):
@@ -69,7 +73,8 @@ class Limit(NamedTuple):
 class Pace(NamedTuple):
     """The rule of the length of a step as numbers, for the device: at most `longest` [s] and
     `growth` times the last, and `safety` times acoustic / (wave_speed + |v|), constant [s],
-    travel / |v|, deformation / |grad v|."""
+    travel / |v|, deformation / |grad v|.  In unit time moduli may grow by the factor exp of the
+    larger of stiffening |grad v| and packing (- div v)."""
 
     longest: float
     safety: float
@@ -79,6 +84,10 @@ class Pace(NamedTuple):
     travel: float  # m
     deformation: float
     growth: float
+    stiffening: float = 0.0  # of moduli, per strain
+    packing: float = 0.0  # of moduli, per compression
+    lasting: float = HUGE  # s, of the constant limits that are not about stiffness
+    lone: float = HUGE  # m, by the wave speed of a lone particle its limit
 
     def step(self, motion: Motion, last: float) -> tuple[float, int]:
         """The longest step [s] after one of length `last`, and which of BOUNDS it is."""
@@ -93,14 +102,18 @@ class Pace(NamedTuple):
         length = min(allowed)
         return length, allowed.index(length)
 
+    def growth_of_moduli(self, motion: Motion) -> float:
+        """At most, as a logarithm, in unit time [1/s]."""
+        return max(self.stiffening * motion.rate, self.packing * motion.compression)
+
 
 class TimeStep:
     """Chooses the length of each step: `safety` times the shortest limit; or as given, shorter
     where a limit asks for it, unless `enforce` is false.
 
     `counts` tells how many steps each limit has bound, or the given length, or GROWTH; `binders`
-    the last limit of each name that did.  `motion` is that of the last step, `strain_left` what
-    particles may be strained before their stiffness has to be seen; half_width [cells]: of the
+    the last limit of each name that did.  `motion` is that of the last step, `growth_left`, as a
+    logarithm, what moduli may grow before they have to be seen; half_width [cells]: of the
     smallest particle, which a basis may take as extended.  `reduction` shortens all steps, after an
     attempt that has failed."""
 
@@ -110,6 +123,8 @@ class TimeStep:
         method = scene.method
         self.isolated = method.transfer_class.isolated_limit(method.basis_class, half_width)
         self.materials = {body.material: scene.materials[body.material] for body in scene.bodies}
+        laws = [material.stiffening(scene.dimension) for material in self.materials.values()]
+        self.stiffening, self.packing = map(max, *laws, (0.0, 0.0))
         self.reduction = 1.0
         self.last, self.code = inf, 0
         self.shortest, self.longest = inf, 0.0
@@ -125,27 +140,42 @@ class TimeStep:
 
     def see(self, stiffness: dict[Any, Stiffness]) -> None:
         """The stiffness of each material now: it decides until the next look."""
+        self.growth_left = MOST_GROWTH
+        self._remember(stiffness)
+        others = self.at_rest["constant"]
+        self.wave_speed = self._acoustic / self.at_rest["acoustic"].seconds
+        self.constant = others.seconds if others else HUGE
+
+    def take_up(self, clock) -> None:
+        """What steps of one launch have come to (kernels/whole_steps.py)."""
+        self.last, self.motion, self.growth_left = clock.last, clock.motion, clock.growth_left
+        if clock.stiffness:
+            self._remember(clock.stiffness)
+            self.wave_speed, self.constant = clock.pace.wave_speed, clock.pace.constant
+
+    def _remember(self, stiffness):
         self.stiffness = stiffness
-        steepest = max(m.stiffening(self.scene.dimension) for m in self.materials.values())
-        self.strain_left = log(3) / steepest
         at_rest = self.limits(Motion())
         acoustic = [limit for limit in at_rest if limit.name == "acoustic"]
         others = [limit for limit in at_rest if limit.name != "acoustic"]
         self.at_rest = {"acoustic": acoustic[0], "constant": others[0] if others else None}
+        lasting = [limit.seconds for limit in others if limit.name != "isolated particle"]
+        self.lasting = min(lasting, default=HUGE)
 
     @property
     def pace(self) -> Pace:
         """The rule until the next look."""
-        a, acoustic, others = self._acoustic, self.at_rest["acoustic"], self.at_rest["constant"]
         free = self.given is not None and not self.enforce
         return Pace(
             longest=HUGE if self.given is None else self.reduction * self.given,
             safety=self.reduction * (self.safety if self.given is None else 1.0),
-            acoustic=HUGE if free else a, wave_speed=1.0 if free else a / acoustic.seconds,
-            constant=HUGE if free or not others else others.seconds,
+            acoustic=HUGE if free else self._acoustic, wave_speed=self.wave_speed,
+            constant=HUGE if free else self.constant,
             travel=HUGE if free else 0.5 * self.scene.cell_size,
             deformation=HUGE if free else 0.2,
-            growth=GROWTH,
+            growth=GROWTH, stiffening=self.stiffening, packing=self.packing,
+            lasting=HUGE if free else self.lasting,
+            lone=HUGE if free or self.isolated is None else self.isolated * self.scene.cell_size,
         )  # fmt: skip
 
     @property
@@ -155,7 +185,7 @@ class TimeStep:
     @property
     def is_look_due(self) -> bool:
         """Whether the stiffness may have changed since it was seen."""
-        return not self.strain_left > 0
+        return not self.growth_left > 0
 
     def limits(self, motion: Motion) -> list[Limit]:
         """All limits in a motion, shortest first."""
@@ -195,7 +225,7 @@ class TimeStep:
     def move(self, dt: float, motion: Motion) -> None:
         """Take note of the motion in a step."""
         self.motion = motion
-        self.strain_left -= dt * motion.rate
+        self.growth_left -= dt * self.pace.growth_of_moduli(motion)
 
     def note(self, lengths, codes) -> None:
         """Remember steps that were taken, and for each which of BOUNDS binds the one after it."""
@@ -247,8 +277,9 @@ class TimeStep:
         """All that later steps depend on, and the counts, as JSON can hold them."""
         return {
             "last": self.last, "code": self.code, "binding": self.binding,
-            "motion": list(self.motion), "strain_left": self.strain_left,
+            "motion": list(self.motion), "growth_left": self.growth_left,
             "stiffness": [list(self.stiffness[m]) for m in self.materials.values()],
+            "wave_speed": self.wave_speed, "constant": self.constant,
             "reduction": self.reduction, "shortest": self.shortest, "longest": self.longest,
             "counts": dict(self.counts),
             "binders": [list(limit) for limit in self.binders.values()],
@@ -260,7 +291,17 @@ class TimeStep:
         self.see({material: Stiffness(*values) for material, values in seen})
         self.motion, self.counts = Motion(*state["motion"]), Counter(state["counts"])
         self.binders = {values[0]: Limit(*values) for values in state["binders"]}
-        for name in ("last", "code", "binding", "strain_left", "reduction", "shortest", "longest"):
+        for name in (
+            "last",
+            "code",
+            "binding",
+            "growth_left",
+            "wave_speed",
+            "constant",
+            "reduction",
+            "shortest",
+            "longest",
+        ):
             setattr(self, name, state[name])
 
     def describe(self, dt: float) -> list[str]:

@@ -42,7 +42,7 @@ class TouchedNodes:
         return nodes, w.prod(axis=1), np.stack(slopes, axis=1)
 
     def read(self, stage: str) -> None:
-        """What the stage of that name (stage_formulas.STAGES) has left."""
+        """What the stage of that name (stage_formulas.py) has left."""
         if stage == "reset":
             self._forget()
             return

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from . import run_folder
 from .errors import InputError, MotionError
+from .whole_files import write_json
 
 AROUND = 6.0
 """Half the edge of the picture of surroundings [cells]."""
@@ -130,7 +130,7 @@ def write_trouble(attempts, failure) -> str:
             content["from"] = attempts.checkpoint.path.name
             for path in attempts.checkpoint.path.parent.glob(attempts.checkpoint.path.name + "*"):
                 shutil.copy2(path, folder)
-        run_folder.write_json(folder / "trouble.json", content)
+        write_json(folder / "trouble.json", content)
         if failure.particle is not None:
             _draw_surroundings(simulation, failure.particle, folder / "surroundings.png")
     except OSError as error:

@@ -10,7 +10,7 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from .run_folder import write_text
+from .whole_files import beside, write_text
 
 SYMMETRIC = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 """VTK's order of the components of a symmetric tensor."""
@@ -122,8 +122,7 @@ class _Appended:
         return f"<{section}>{text}</{section}>"
 
     def write(self, path: Path, kind: str, attributes: str, time: float, piece: str) -> None:
-        part = path.with_name(path.name + ".part")
-        with part.open("wb") as file:
+        with beside(path) as part, part.open("wb") as file:
             file.write(
                 f'<?xml version="1.0"?>\n<VTKFile type="{kind}" version="1.0" byte_order='
                 f'"LittleEndian" header_type="UInt64"><{kind}{attributes}><FieldData><DataArray '
@@ -135,7 +134,6 @@ class _Appended:
                 file.write(np.array(self._size(column), "<u8").tobytes())
                 file.write(np.ascontiguousarray(column.make(), column.kind).data)
             file.write(b"</AppendedData></VTKFile>\n")
-        part.replace(path)
 
     def _size(self, column):
         return self.n * column.components * np.dtype(column.kind).itemsize

@@ -30,7 +30,7 @@ class Stage(NamedTuple):
     """The step after one of its stages.  n particles in the order of the scene, N nodes that can
     have mass, k of them in the stencil of the picked particle."""
 
-    name: str  # of stage_formulas.STAGES
+    name: str  # of stage_formulas.stage_names
     formula: tuple[str, ...]  # lines, see stage_formulas.py
     time: float  # s, at the start of the step
     dt: float  # s

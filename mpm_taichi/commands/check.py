@@ -1,5 +1,6 @@
 """Validate and seed a scene, and show the plan: particles, memory, time step, steps, time."""
 
+from ..errors import InputError
 from .arguments import add_frames, add_machine, add_scene, progress_console, scene_of
 
 
@@ -19,6 +20,11 @@ def add(parser) -> None:
 
 
 def execute(options) -> int:
+    if options.margin and (options.device or options.precision or options.threads):
+        raise InputError(
+            "--margin: is measured on one thread of the CPU in f64; leave out --device, "
+            "--precision, --threads"
+        )
     scene = scene_of(options)
     from ..run import check
 

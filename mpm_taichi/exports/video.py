@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import InputError, RunError
 from ..run_folder import read_report
+from ..whole_files import beside
 
 FASTEST_GIF = 50
 """Pictures a second: a GIF counts in hundredths of a second, and many programs refuse one."""
@@ -33,15 +34,13 @@ def export_video(run: Path, file: Path, fps: float, overwrite: bool) -> None:
     if file.suffix == ".gif" and fps > FASTEST_GIF:
         raise InputError(f"--fps {fps:g}: a GIF has at most {FASTEST_GIF} pictures a second")
     paths = picture_paths(run)
-    part = file.with_name(file.name + ".part")
+    write = {".mp4": write_mp4, ".gif": write_gif, ".webp": write_webp}[file.suffix]
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        {".mp4": write_mp4, ".gif": write_gif, ".webp": write_webp}[file.suffix](part, paths, fps)
-        part.replace(file)
+        with beside(file) as part:
+            write(part, paths, fps)
     except OSError as error:
         raise InputError(f"{file}: cannot be written: {error}") from None
-    finally:
-        part.unlink(missing_ok=True)
     size = file.stat().st_size / 1e6
     print(f"{file}: {len(paths)} pictures, {len(paths) / fps:.3g} s, {size:.3g} MB")
 

@@ -29,6 +29,7 @@ def clear_share(grid: Template, worker, workers):
 def clear_nodes(grid: Template, workers: int):
     grid.speed_squared[None] = 0.0
     grid.rate_squared[None] = 0.0
+    grid.compression[None] = 0.0
     for counter in range(grid.gate * workers):
         if counter % grid.gate == 0:
             clear_share(grid, counter // grid.gate, workers)

@@ -6,9 +6,23 @@ import taichi as ti
 from ..runtime import Array, Template
 from .blocks import first_block
 from .sums import MOST_BLOCKS
+from .time_step import CONSTANT, LASTING, LONE_LENGTH, WAVE_SPEED
 from .update_stress import load_state
 
 WAVE, LONE = range(2)
+
+
+@ti.func
+def stiffest_of(particles: Template, law: Template, material, begin, end):
+    """As `stiffest`, of particles begin ... end - 1."""
+    wave_most, wave_place, lone_most, lone_place = 0.0, begin, 0.0, begin
+    for p in range(begin, end):
+        wave, lone = law.kind.moduli(law.constants[material], particles.H[p], load_state(law, p))
+        if wave > wave_most:
+            wave_most, wave_place = wave, p
+        if lone > lone_most:
+            lone_most, lone_place = lone, p
+    return wave_most, particles.id[wave_place], lone_most, particles.id[lone_place]
 
 
 @ti.func
@@ -21,17 +35,30 @@ def look_share(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = begin + block * size
-        wave_most, wave_place, lone_most, lone_place = 0.0, 0, 0.0, 0
-        for p in range(first, ti.min(first + size, end)):
-            wave, lone = law.kind.moduli(
-                law.constants[material], particles.H[p], load_state(law, p)
+        wave, wave_particle, lone, lone_particle = stiffest_of(
+            particles, law, material, first, ti.min(first + size, end)
+        )
+        largest[block, WAVE], places[block, WAVE] = wave, wave_particle
+        largest[block, LONE], places[block, LONE] = lone, lone_particle
+
+
+@ti.func
+def look_again(particles: Template, pace: Template, densities: Template, seen: Template):
+    """As Simulation does between launches: `seen` [materials, 4] becomes what `stiffest` tells of
+    each, and the rule `pace` follows."""
+    pace[WAVE_SPEED], pace[CONSTANT] = ti.cast(0.0, ti.f64), pace[LASTING]
+    for law in ti.static(particles.laws):
+        for material in range(law.constants.shape[0]):
+            k = law.first + material
+            wave, wave_particle, lone, lone_particle = stiffest_of(
+                particles, law, material, law.ends[material], law.ends[material + 1]
             )
-            if wave > wave_most:
-                wave_most, wave_place = wave, p
-            if lone > lone_most:
-                lone_most, lone_place = lone, p
-        largest[block, WAVE], places[block, WAVE] = wave_most, particles.id[wave_place]
-        largest[block, LONE], places[block, LONE] = lone_most, particles.id[lone_place]
+            seen[k, 0], seen[k, 1] = ti.cast(wave, ti.f64), ti.cast(wave_particle, ti.f64)
+            seen[k, 2], seen[k, 3] = ti.cast(lone, ti.f64), ti.cast(lone_particle, ti.f64)
+            pace[WAVE_SPEED] = ti.max(pace[WAVE_SPEED], ti.sqrt(seen[k, 0] / densities[k]))
+            if lone > 0.0:
+                alone = pace[LONE_LENGTH] * ti.sqrt(densities[k] / seen[k, 2])
+                pace[CONSTANT] = ti.min(pace[CONSTANT], alone)
 
 
 @ti.kernel

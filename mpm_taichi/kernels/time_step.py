@@ -6,9 +6,10 @@ import taichi as ti
 from ..runtime import Template
 from ..time_step import HUGE, Pace
 
-LONGEST, SAFETY, ACOUSTIC, WAVE_SPEED, CONSTANT, TRAVEL, DEFORMATION, GROWTH = range(
-    len(Pace._fields)
-)
+(
+    LONGEST, SAFETY, ACOUSTIC, WAVE_SPEED, CONSTANT, TRAVEL, DEFORMATION, GROWTH, STIFFENING,
+    PACKING, LASTING, LONE_LENGTH,
+) = range(len(Pace._fields))  # fmt: skip
 
 
 @ti.func
@@ -30,6 +31,12 @@ def longest_step(pace: Template, speed, rate, last):
         if allowed < length:
             length, bound = allowed, k + 1
     return length, bound
+
+
+@ti.func
+def growth_of_moduli(pace: Template, rate, compression):
+    """As Pace.growth_of_moduli [1/s]."""
+    return ti.max(pace[STIFFENING] * rate, pace[PACKING] * compression)
 
 
 @ti.func

@@ -39,7 +39,7 @@ def update_particle(
     p, particles: Template, law: Template, material, grid: Template, transfer: Template,
     dt, dt_next, alpha, velocity: Template, stress: Template, move: Template, tally: Template, row,
 ):  # fmt: skip
-    """Returns |v_pic|^2 and |L|^2, the sum of squares."""
+    """Returns |v_pic|^2, |L|^2, the sum of squares, and - tr L."""
     dim = ti.static(grid.dim)
     g = grid.constants[None]
     m = particles.m[p]
@@ -73,7 +73,7 @@ def update_particle(
         x = particles.x[p] + dt * v_pic
         particles.x[p] = x
         note_if_lost(p, x, particles, grid)
-    return v_pic.norm_sqr(), L.norm_sqr()
+    return v_pic.norm_sqr(), L.norm_sqr(), -L.trace()
 
 
 @ti.func
@@ -83,14 +83,14 @@ def stress_share(
     velocity: Template, stress: Template, move: Template, tally: Template, worker, workers,
 ):  # fmt: skip
     blocks = blocks_of(end - begin, grid.block)
-    fastest, steepest = 0.0, 0.0
+    fastest, steepest, tightest = 0.0, 0.0, 0.0
     row = begin // grid.block + law.first + material  # of the tally: none is another material's
     for block in range(
         first_block(worker, workers, blocks), first_block(worker + 1, workers, blocks)
     ):
         first = begin + block * grid.block
         for p in range(first, ti.min(first + grid.block, end)):
-            speed_squared, rate_squared = update_particle(
+            speed_squared, rate_squared, compression = update_particle(
                 p, particles, law, material, grid, transfer, dt, dt_next, alpha,
                 velocity, stress, move, tally, row + block,
             )  # fmt: skip
@@ -99,11 +99,15 @@ def stress_share(
                     fastest = speed_squared
                 if rate_squared > steepest:
                     steepest = rate_squared
+                if compression > tightest:
+                    tightest = compression
     if ti.static(move):  # on a GPU each particle comes here: few of them have to wait for another
         if fastest > grid.speed_squared[None]:
             ti.atomic_max(grid.speed_squared[None], fastest)
         if steepest > grid.rate_squared[None]:
             ti.atomic_max(grid.rate_squared[None], steepest)
+        if tightest > grid.compression[None]:
+            ti.atomic_max(grid.compression[None], tightest)
 
 
 @ti.kernel
@@ -132,7 +136,7 @@ def update_stress(
     On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
     has left the closed domain, or the number of particles; and once particles have moved the grid
-    has the largest |sum_i w_ip v_i|^2 and |L|^2 of this step."""
+    has the largest |sum_i w_ip v_i|^2, |L|^2 and - tr L of this step."""
     update_particles(
         particles, group.law, group.number, grid, transfer, group.begin, group.end,
         dt, dt_next, alpha, velocity, stress, move, tally, grid.workers(group.end - group.begin),

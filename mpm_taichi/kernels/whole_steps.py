@@ -10,29 +10,35 @@ from math import inf
 import numpy as np
 import taichi as ti
 
+from ..materials import Material
 from ..runtime import Array, Template
 from ..schedules import MOST
 from ..stages import stage
+from ..time_step import MOST_GROWTH, Motion, Pace, Stiffness
 from .body_force import push_share
 from .clear import clear_share
 from .g2p import gather_share
 from .ghosts import exchange_share
 from .grid_update import update_share
 from .p2g import scatter_share
+from .stiffness import look_again
 from .tally import NoTally, note_share
-from .time_step import even_step, longest_step
+from .time_step import even_step, growth_of_moduli, longest_step
 from .update_stress import stress_share
 
-TIME, DT, TARGET, AFTER, LAST, SPEED, RATE, DRIFT, LEFT, TAKEN, ON, GOOD = range(12)
+TIME, DT, TARGET, AFTER, LAST, DRIFT, LEFT, LOOKS, TAKEN, ON, GOOD, SPEED, RATE, COMPRESSION = (
+    range(14)
+)
 
 
 @dataclass
 class Clock:
     """Where a run is, and how far it may go: `time` [s], the length `dt` [s] of the next step, the
     longest that the rule allowed `last`; `target` and `after`, the times of the next two outputs
-    (after: 0 if there is none); the largest `speed` [m/s] and `rate` [1/s] of the last step; the
-    `drift` [cells] of particles since they were sorted, and the `strain_left` to them until their
-    stiffness has to be seen.
+    (after: 0 if there is none); the `motion` of the last step; the `drift` [cells] of particles
+    since they were sorted, and the growth of their moduli that is left until these are looked at.
+    `pace` is the rule, which follows what is seen, and `stiffness` what this launch has seen last
+    of each material; empty where it did not look.
 
     `lengths` [s] are those of the steps taken, `bounds` (of mpm_taichi/time_step.py) what bound the
     one after each; `is_good`: the next is a number, not too short."""
@@ -42,10 +48,11 @@ class Clock:
     target: float
     after: float
     last: float
-    speed: float
-    rate: float
+    motion: Motion
     drift: float
-    strain_left: float = inf
+    pace: Pace
+    growth_left: float = inf
+    stiffness: dict[Material, Stiffness] = field(default_factory=dict)
     lengths: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bounds: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
     is_good: bool = True
@@ -83,8 +90,8 @@ def note(grid: Template, gravity: Template, dt, alpha, tally: Template, when: Te
 @ti.func
 def take_step(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, flip: Template, pace: Template, tally: Template,
-    clock: Template,
+    gravity: Template, body_force: Template, flip: Template, pace: Template, densities: Template,
+    seen: Template, tally: Template, clock: Template,
 ):  # fmt: skip
     """Returns which of BOUNDS binds the next step."""
     time, dt, landing = clock[TIME], clock[DT], clock[TIME] + 1.5 * clock[DT] > clock[TARGET]
@@ -92,7 +99,7 @@ def take_step(
     alpha = ti.cast(flip[0] * ti.exp(-flip[1] * dt), float)
     if ti.static(particles.layout.force):
         push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
-    grid.speed_squared[None], grid.rate_squared[None] = 0.0, 0.0
+    grid.speed_squared[None], grid.rate_squared[None], grid.compression[None] = 0.0, 0.0, 0.0
     clear_share(grid, 0, 1)
     for color in range(2):
         scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
@@ -117,8 +124,13 @@ def take_step(
     clock[TIME], clock[DT], clock[LAST] = end, dt_next, longest
     clock[SPEED] = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
     clock[RATE] = ti.sqrt(ti.cast(grid.rate_squared[None], ti.f64))
+    clock[COMPRESSION] = grid.compression[None]
     clock[DRIFT] += dt * clock[SPEED] * grid.constants[None].inv_dx
-    clock[LEFT] -= dt * clock[RATE]
+    clock[LEFT] -= dt * growth_of_moduli(pace, clock[RATE], clock[COMPRESSION])
+    if not clock[LEFT] > 0.0:
+        look_again(particles, pace, densities, seen)
+        clock[LEFT] = MOST_GROWTH
+        clock[LOOKS] += 1
     clock[GOOD] = 0.0
     if goal == 0.0 or goal - end < float(MOST) * longest:
         clock[GOOD] = 1.0
@@ -126,7 +138,6 @@ def take_step(
         landing
         or clock[GOOD] == 0.0
         or clock[DRIFT] >= 0.99
-        or clock[LEFT] <= 0.0
         or particles.lost[None] < particles.count
     ):
         clock[ON] = 0.0
@@ -136,8 +147,8 @@ def take_step(
 @ti.kernel
 def take_steps(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, flip: Array, pace: Array, tally: Template, most: int,
-    clock: Array, lengths: Array, bounds: Array,
+    gravity: Template, body_force: Template, flip: Array, pace: Array, densities: Array,
+    seen: Array, tally: Template, most: int, clock: Array, lengths: Array, bounds: Array,
 ):  # fmt: skip
     ti.loop_config(serialize=True)
     for n in range(most):
@@ -145,30 +156,41 @@ def take_steps(
             lengths[n] = clock[DT]
             clock[TAKEN] = n + 1
             bounds[n] = take_step(
-                particles, grid, basis, transfer, walls, gravity, body_force, flip, pace, tally,
-                clock,
+                particles, grid, basis, transfer, walls, gravity, body_force, flip, pace,
+                densities, seen, tally, clock,
             )  # fmt: skip
 
 
 @stage
 def whole_steps(
-    particles, grid, basis, transfer, walls, gravity, body_force, flip_part, pace, clock, most,
+    particles, grid, basis, transfer, walls, gravity, body_force, flip_part, clock, most,
     tally=NoTally,
 ):  # fmt: skip
-    """Up to `most` steps from `clock`, fewer where an output is reached, a sort or a look at the
-    stiffness is due, a particle is lost or the next step is no number.  On return the clock says
+    """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
+    is lost or the next step is no number.  On return the clock says
     how far that was."""
     numbers = np.array([
-        clock.time, clock.dt, clock.target, clock.after, clock.last, clock.speed, clock.rate,
-        clock.drift, clock.strain_left, 0, 1, 1,
+        clock.time, clock.dt, clock.target, clock.after, clock.last, clock.drift,
+        clock.growth_left, 0, 0, 1, 1, *clock.motion,
     ])  # fmt: skip
     lengths, bounds = np.zeros(most), np.zeros(most, np.int32)
+    pace, seen = np.array(clock.pace, float), np.zeros((len(particles.groups), 4))
+    densities = np.array([group.material.density for group in particles.groups], float)
     take_steps(
         particles, grid, basis, transfer, walls, gravity, body_force, np.array(flip_part, float),
-        np.array(pace, float), tally, most, numbers, lengths, bounds,
+        pace, densities, seen, tally, most, numbers, lengths, bounds,
     )  # fmt: skip
     clock.time, clock.dt, clock.last = map(float, numbers[[TIME, DT, LAST]])
-    clock.speed, clock.rate = map(float, numbers[[SPEED, RATE]])
-    clock.drift, clock.strain_left = map(float, numbers[[DRIFT, LEFT]])
+    clock.motion = Motion(*map(float, numbers[[SPEED, RATE, COMPRESSION]]))
+    clock.drift, clock.growth_left = map(float, numbers[[DRIFT, LEFT]])
+    clock.stiffness = {}
+    if numbers[LOOKS]:
+        clock.pace = Pace(*pace.tolist())
+        clock.stiffness = {
+            group.material: Stiffness(wave, int(wave_particle), lone, int(lone_particle))
+            for group, (wave, wave_particle, lone, lone_particle) in zip(
+                particles.groups, seen.tolist(), strict=True
+            )
+        }
     clock.is_good, taken = bool(numbers[GOOD]), int(numbers[TAKEN])
     clock.lengths, clock.bounds = lengths[:taken], bounds[:taken]

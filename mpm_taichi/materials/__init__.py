@@ -9,7 +9,7 @@ A material is a frozen model (what a scene gives, with units) and device functio
 - `wave_speed()`          of pressure waves in the undeformed material [m/s]
 - `dilatation_modulus(dim)`  M_d = dim lam + 2 mu [Pa], of a lone particle's time-step limit
 - `shear_viscosity()`     eta [Pa s]
-- `stiffening(dim)`       by what part its moduli may grow per strain
+- `stiffening(dim)`       by what part its moduli may grow: per strain, and per compression
 - `update(c, H, L, dt, s)`  -> H, s, tau [Pa], with H = F - I already advanced by dt, L the velocity
   gradient [1/s] and s the state; a law that flows returns the H of what is stored elastically.
   With L = 0 and dt = 0 it only evaluates the stress

@@ -55,9 +55,10 @@ class Fluid(MaterialLaw):
     def dilatation_modulus(self, dim: int) -> float:
         return dim * self.bulk_modulus
 
-    def stiffening(self, dim: int) -> float:
-        """As J^(1 - gamma)."""
-        return max((self.exponent - 1) * sqrt(dim), super().stiffening(dim))
+    def stiffening(self, dim: int) -> tuple[float, float]:
+        """As J^(1 - gamma) where it is compressed; as J at most, the suction on a lone particle,
+        where it expands."""
+        return sqrt(dim), self.exponent - 1
 
     def shear_viscosity(self) -> float:
         return self.viscosity

@@ -32,9 +32,11 @@ class MaterialLaw(Model):
             for name, value in self.state(H.shape[1]).items()
         }
 
-    def stiffening(self, dim: int) -> float:
-        """By what part its moduli may grow per strain (Frobenius norm): here as J^2 does."""
-        return 2 * sqrt(dim)
+    def stiffening(self, dim: int) -> tuple[float, float]:
+        """By what part its moduli may grow: the larger of the first number times a small strain
+        (Frobenius norm) and the second times its compression - div u.  Here as J^2 does, which
+        grows by 2 sqrt(dim) per strain where it grows fastest."""
+        return 2 * sqrt(dim), 0.0
 
     def shear_viscosity(self) -> float:
         """eta [Pa s], which limits the time step."""

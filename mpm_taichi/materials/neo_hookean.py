@@ -24,6 +24,10 @@ class NeoHookean(Elastic):
             tau[d, d] += pressure
         return H, s, tau
 
+    def stiffening(self, dim: int) -> tuple[float, float]:
+        """As the square of the largest stretch, or as 1/J."""
+        return 2.0, 1.0
+
     @staticmethod
     @ti.func
     def moduli(c, H, s):

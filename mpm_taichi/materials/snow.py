@@ -46,9 +46,9 @@ class Snow(Elastic):
         number of steps."""
         return {"plastic_volume": 0.0, "dissipated": 0.0, "capped": 0.0}
 
-    def stiffening(self, dim: int) -> float:
-        """Packed, it hardens by exp(xi) per J_P."""
-        return self.hardening * sqrt(dim) + super().stiffening(dim)
+    def stiffening(self, dim: int) -> tuple[float, float]:
+        """Packed, it hardens by exp(xi) per J_P; the rest as the fixed-corotated law."""
+        return (self.hardening + 4) * sqrt(dim), 0.0
 
     @staticmethod
     @ti.func

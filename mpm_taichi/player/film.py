@@ -9,6 +9,7 @@ import numpy as np
 from ..recording import RecordedFrame, Recording
 from ..renderers.quantities import QUANTITIES, shown_range
 from .packing import Packer
+from .stage_film import HalfChannel, StageFilm, packed
 
 FINEST = 65534
 """Quanta along an axis of the domain."""
@@ -62,15 +63,17 @@ class Channel:
 class Film:
     """Every `every`-th frame of a recording.
 
-    `channels` are the coordinates by axis, the velocity components by axis, the scalars by name;
-    `checksum` is the CRC-32 of their quanta in this order, the low byte first, frame by frame; it
-    is known once `blocks` is through."""
+    `channels` are the coordinates by axis, the velocity components by axis, the scalars by name,
+    and where the run has `stages` theirs.  `checksum` is the CRC-32 of their quanta in this order,
+    the low byte first, frame by frame, then of the nodes; it is known once `blocks` and
+    `node_blocks` are through."""
 
     def __init__(self, recording: Recording, every: int = 1):
         self.recording = recording
         self.numbers = range(0, len(recording), every)
         self.dim, self.particles = recording.scene.dimension, len(recording.body)
         self.checksum = 0
+        self.stages = StageFilm(recording, self.numbers) if recording.has_stages else None
         self._measure()
 
     def _measure(self):
@@ -89,22 +92,27 @@ class Film:
         self.times, self.ranges = np.array(times), seen
         self.scalars = [name for name in QUANTITIES if name in seen and name != "speed"]
         step = (fastest.high or 1.0) / FASTEST
-        self.channels = [
+        self.ranged = [
             *(its.channel(FINEST, np.uint16) for its in along),
             *[Channel(-FASTEST * step, step, np.uint8)] * self.dim,
             *(seen[name].channel(LEVELS, np.uint8) for name in self.scalars),
         ]
+        halves = self.stages.channels if self.stages else []
+        self.channels: list[Channel | HalfChannel] = [*self.ranged, *halves]
 
-    def quantized(self, frame: RecordedFrame) -> list[np.ndarray]:
-        """[n] of each channel."""
+    def quantized(self, number: int) -> list[np.ndarray]:
+        """[n] of each channel in a frame of the recording."""
+        frame = self.recording[number]
         gone = deleted(frame)
         columns = [*frame.position.T, *frame.velocity.T, *map(frame.scalars.get, self.scalars)]
-        quanta = []
-        for channel, values in zip(self.channels, columns, strict=True):
-            q = channel.quantized(np.where(gone, channel.low, values))
-            if channel.kind is np.uint16:
-                q[gone] = GONE
-            quanta.append(q)
+        if self.stages:
+            columns += self.stages.columns(frame, number)
+        quanta = [
+            channel.quantized(np.where(gone, channel.low, values))
+            for channel, values in zip(self.channels, columns, strict=True)
+        ]
+        for coordinate in quanta[: self.dim]:
+            coordinate[gone] = GONE
         return quanta
 
     def blocks(self) -> Iterator[str]:
@@ -113,12 +121,18 @@ class Film:
         starts = [0, *range(1, len(self.numbers), several)]
         packer, self.checksum = Packer(), 0
         for start, end in zip(starts, [*starts[1:], len(self.numbers)], strict=True):
-            frames = [self.quantized(self.recording[k]) for k in self.numbers[start:end]]
+            frames = list(map(self.quantized, self.numbers[start:end]))
             for frame in frames:
                 for q in frame:
                     little = q.astype(q.dtype.newbyteorder("<"))
                     self.checksum = zlib.crc32(little.tobytes(), self.checksum)
             yield packer.pack([np.stack(q) for q in zip(*frames, strict=True)])
+
+    def node_blocks(self) -> Iterator[str]:
+        """The nodes of the stages, after the frames; none where the run has none."""
+        for block in self.stages.blocks() if self.stages else ():
+            self.checksum = zlib.crc32(block, self.checksum)
+            yield packed(block)
 
     def particle_bytes(self) -> bytes:
         """What stays: mass [kg] and radius [m], half the edge of the particle's cube, as float32,
@@ -131,7 +145,7 @@ class Film:
         """The rest, JSON-able."""
         scene, dim = self.recording.scene, self.dim
         quantities = [{"name": "body", "label": "body"}, self._quantity("speed")]
-        for name, channel in zip(self.scalars, self.channels[2 * dim :], strict=True):
+        for name, channel in zip(self.scalars, self.ranged[2 * dim :], strict=True):
             quantities.append(self._quantity(name) | {"low": channel.low, "step": channel.step})
         images = scene.output.images
         return {
@@ -145,15 +159,16 @@ class Film:
                 "cells": scene.domain.cells,
                 "walls": self._walls(),
             },
-            "low": [channel.low for channel in self.channels[:dim]],
-            "step": [channel.step for channel in self.channels[:dim]],
-            "velocityStep": self.channels[dim].step,
+            "low": [channel.low for channel in self.ranged[:dim]],
+            "step": [channel.step for channel in self.ranged[:dim]],
+            "velocityStep": self.ranged[dim].step,
             "quantities": quantities,
             "colorBy": "speed" if images == "none" else images.color_by,
             "gridOpacity": 0.25 if images == "none" else images.grid,
             "times": [float(f"{time:.9g}") for time in self.times],
             "steps": self.steps,
             "history": self._history(),
+            "walk": self.stages and self.stages.header(),
         }
 
     def _quantity(self, name: str) -> dict:

@@ -16,14 +16,14 @@ from string import Template
 
 from ..recording import Recording
 from ..renderers import palette
-from ..run_folder import write_text
 from ..scene import dump_scene
+from ..whole_files import write_text
 from .about import about
 from .film import Film
 
 SCRIPTS = (
     "dom", "unpack", "film", "units", "camera", "painter", "ground", "legend", "chart", "log",
-    "page", "gestures", "controls", "main",
+    "bases", "stages", "formula", "walk", "sketch", "page", "gestures", "controls", "main",
 )  # fmt: skip
 
 THEME = ("shadow", "background", "panel", "line", "missing", "faint_ink", "ink")
@@ -51,21 +51,22 @@ class Player:
 def player(recording: Recording, every: int = 1) -> Player:
     """The page that plays every `every`-th frame of a recording."""
     film = Film(recording, every)
-    blocks = list(film.blocks())
+    blocks, node_blocks = list(film.blocks()), list(film.node_blocks())
     checksum = f"{film.checksum:08x}"
     header = film.header() | {
         "checksumWritten": checksum,
         "blocks": len(blocks),
+        "nodeBlocks": len(node_blocks),
         "palette": colors(),
         "about": about(recording),
         "scene": dump_scene(recording.scene),
     }
     particles = base64.b64encode(zlib.compress(film.particle_bytes(), 9)).decode("ascii")
-    text = page(header, particles, blocks)
+    text = page(header, particles, blocks, node_blocks)
     return Player(text, len(film.numbers), film.particles, checksum)
 
 
-def page(header: dict, particles: str, blocks: list[str]) -> str:
+def page(header: dict, particles: str, blocks: list[str], node_blocks: list[str]) -> str:
     """The first frame stands before the script, so that it is seen while the others are read."""
     style, script = stylesheet(), "\n".join(template(f"{name}.js") for name in SCRIPTS)
     script = f'(() => {{\n"use strict";\n{script}}})();\n'
@@ -74,6 +75,7 @@ def page(header: dict, particles: str, blocks: list[str]) -> str:
         "base-uri 'none'; form-action 'none'"
     )
     first, *others = (data_element(f"block-{k}", block) for k, block in enumerate(blocks))
+    others += (data_element(f"nodes-{k}", block) for k, block in enumerate(node_blocks))
     return Template(template("player.html")).substitute(
         policy=html.escape(policy),
         title=html.escape(header["title"]),

@@ -14,5 +14,6 @@ from .images import Images
 from .keeper import Keeper
 from .paraview import ParaView
 from .snapshots import Snapshots
+from .stages import Stages
 
-__all__ = ["Errors", "History", "Images", "Keeper", "ParaView", "Snapshots"]
+__all__ = ["Errors", "History", "Images", "Keeper", "ParaView", "Snapshots", "Stages"]

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from ..materials.law import MaterialLaw
-from ..run_folder import write_arrays
+from ..whole_files import write_arrays
 
 SCALARS = {"pressure": "pressure", "stress": "von_mises_stress", "density": "density"}
 """Of each particle, by their names in `output.images.color_by`; and those in a Snapshot."""

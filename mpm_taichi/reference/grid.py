@@ -20,4 +20,5 @@ class Grid:
         self.m = np.zeros(self.shape)
         self.mv, self.impulse, self.v_old, self.v = np.zeros((4, *self.shape, self.dim))
         self.residual, self.given = np.zeros((2, *self.mv.shape))
-        self.speed_squared, self.rate_squared, self.cut = 0.0, 0.0, 0
+        self.speed_squared, self.rate_squared, self.compression = 0.0, 0.0, 0.0
+        self.cut = 0

@@ -70,7 +70,7 @@ class Solver:
 
     def step(self, time, dt, dt_next):
         """Advance from `time` by dt [s], the next step being of length dt_next; returns the largest
-        |sum_i w_i v_i| [m/s] and |L| [1/s] of all particles."""
+        |sum_i w_i v_i| [m/s], |L| and - tr L [1/s] of all particles."""
         wrap(self.particles, self.grid)
         if self.stress_update == "usf":
             self.map_gradient()
@@ -84,7 +84,7 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        return sqrt(self.grid.speed_squared), sqrt(self.grid.rate_squared)
+        return sqrt(self.grid.speed_squared), sqrt(self.grid.rate_squared), self.grid.compression
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

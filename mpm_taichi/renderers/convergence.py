@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..whole_files import beside
+
 
 def draw_convergence(
     path: Path, title: str, axis: str, curves: Mapping[str, tuple[Sequence, Sequence]]
@@ -29,4 +31,5 @@ def draw_convergence(
     axes.set_xlabel("cell size dx [m]")
     axes.set_ylabel(axis)
     axes.grid(which="both", alpha=0.25)
-    figure.savefig(path, dpi=150)
+    with beside(path) as part:
+        figure.savefig(part, dpi=150, format="png")

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..whole_files import beside
+
 HAS = ("particle_kinetic_energy", "elastic_energy", "dissipated_energy")
 
 
@@ -27,7 +29,8 @@ def draw_ledger(path: Path, columns: Mapping[str, np.ndarray], title: str = "") 
     for axes in (energies, losses):
         axes.legend()
         axes.grid(alpha=0.25)
-    figure.savefig(path, dpi=150)
+    with beside(path) as part:
+        figure.savefig(part, dpi=150, format="png")
 
 
 def _words(name):

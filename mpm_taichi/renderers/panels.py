@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..whole_files import beside
 from .units import prefix
 
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#56b4e9", "#e69f00")
@@ -62,9 +63,8 @@ def draw_panels(path: Path, title: str, panels: Sequence[Panel], columns: int) -
     if alike:
         lines, labels = grid.flat[0].get_legend_handles_labels()
         figure.legend(lines, labels, loc="outside lower center", ncols=3, frameon=False)
-    part = path.with_name(path.name + ".part")
-    figure.savefig(part, dpi=150, format="png")
-    part.replace(path)
+    with beside(path) as part:
+        figure.savefig(part, dpi=150, format="png")
 
 
 def _draw(axes, panel: Panel, seconds: float) -> None:

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..whole_files import beside
+
 COLOR_TYPE = {1: 0, 3: 2, 4: 6}
 """Channels of a pixel (gray, RGB, RGBA) -> color type of the header."""
 
@@ -24,10 +26,8 @@ def write_png(path, image: np.ndarray, text: dict[str, str] | None = None) -> No
     rows = np.zeros((height, 1 + width * channels), np.uint8)  # byte 0 of a row: filter 0
     rows[:, 1:] = image.reshape(height, -1)
     header = struct.pack(">IIBBBBB", width, height, 8, COLOR_TYPE[channels], 0, 0, 0)
-    part = Path(f"{path}.part")
-    with part.open("wb") as file:
+    with beside(Path(path)) as part, part.open("wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header))
         for word, value in (text or {}).items():
             file.write(chunk(b"tEXt", f"{word}\0{value}".encode("latin-1", "replace")))
         file.write(chunk(b"IDAT", zlib.compress(rows.data, 1)) + chunk(b"IEND", b""))
-    part.replace(path)

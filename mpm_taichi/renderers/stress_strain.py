@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..whole_files import beside
 from .units import prefix
 
 
@@ -37,7 +38,8 @@ def draw_stress_strain(
         axes.locator_params(axis="x", nbins=7)
         axes.grid(alpha=0.25)
         axes.legend(framealpha=0.5)
-    figure.savefig(path, dpi=150)
+    with beside(path) as part:
+        figure.savefig(part, dpi=150, format="png")
 
 
 def _merged(stresses: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -142,6 +142,13 @@ def interval(time, output) -> Iterator[Found]:
         )
 
 
+def stages(domain, output) -> Iterator[Found]:
+    if output.stages and domain.dimension != 2:
+        yield ("output", "stages"), "is for 2D scenes: leave it out"
+    if output.stages and output.snapshots is False:
+        yield ("output", "stages"), "needs the snapshots, so output.snapshots must not be false"
+
+
 def gravity(domain, gravity) -> Iterator[Found]:
     if gravity is not None and len(gravity) != domain.dimension:
         yield ("gravity",), wrong_length(gravity, domain)
@@ -150,6 +157,8 @@ def gravity(domain, gravity) -> Iterator[Found]:
 def names(bodies) -> Iterator[Found]:
     first = {}
     for number, body in bodies.items():
+        if not body.name.isprintable():
+            yield ("bodies", number, "name"), "must be on one line, of characters that show"
         other = first.setdefault(body.name, number)
         if other != number:
             yield (
@@ -242,6 +251,7 @@ CHECKS = (
     stress_update,
     step,
     interval,
+    stages,
     gravity,
     names,
     material,

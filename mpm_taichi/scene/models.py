@@ -238,6 +238,11 @@ class Output(Model):
         description="particles of each output in a file, for player, films and analysis; default: "
         "up to 200,000 particles",
     )
+    stages: bool = Field(
+        default=False,
+        description="in 2D, the stages of the step that follows each output, which the player then "
+        "shows one by one; with snapshots",
+    )
     paraview: bool | ParaView = Field(
         default=False, description="files for ParaView: particles of each output, or the grid too"
     )

@@ -40,8 +40,10 @@ class Looks:
 
 
 def looks_of(scene) -> Looks:
-    """As the scene's pictures have them."""
+    """As the scene's pictures have them; a grid that they do not show can be turned on."""
     images = scene.output.images
     if images == "none":
         return Looks()
-    return Looks(color_by=images.color_by, grid_opacity=images.grid)
+    looks = Looks(color_by=images.color_by, shows_grid=images.grid > 0)
+    looks.grid_opacity = images.grid or looks.grid_opacity
+    return looks

@@ -17,6 +17,7 @@ LONG = (
     "time.step=2.5e-4", "output.every=0.25", "output.images={size: 160}", "output.checkpoints=0.2",
 )  # fmt: skip
 MORE = {
+    "two_disks_lattice": LONG[:2],
     "dam_break": ("domain.cells=[48, 24]", "time.end=0.2", "output.every=0.02"),
     "sod": ("time.step=2e-5", "output.every=0.02"),
     "spinning_disk": ("time.step=auto", "method.precision=f32", "time.end=1", "output.every=0.1"),
@@ -128,6 +129,36 @@ def test_ctrl_c_saves_and_says_how_to_go_on(whole, tmp_path):
     assert results(folder) == results(whole)
     again = mpm_taichi("--resume", folder)
     assert (again.returncode, again.stderr) == (2, f"--resume {folder}: the run is done\n")
+
+
+def mount(folder, size) -> bool:
+    """A file system of that size there, or another size of the one that is; root alone may."""
+    new = "size" if not folder.is_mount() else "remount,size"
+    command = ["mount", "-t", "tmpfs", "-o", f"{new}={size}", "tmpfs", str(folder)]
+    return subprocess.run(command, capture_output=True).returncode == 0
+
+
+@pytest.mark.campaign
+def test_a_full_disk_ends_a_run_that_goes_on_when_there_is_room(whole, tmp_path):
+    """A file system that fills up at the tenth picture or so: exit code 1 and a sentence, the last
+    checkpoint whole, no part of a file; with more room it ends as the undisturbed run."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    if not mount(disk, "420k"):
+        pytest.skip("mounting needs root")
+    try:
+        full = mpm_taichi(*words(LATTICE, (*LONG, "output.snapshots=false"), disk / "run"))
+        print(full.stderr)
+        assert full.returncode == 1
+        assert "No space left on device" in full.stderr
+        assert in_words(full.stderr)
+        assert not list(disk.rglob("*.part"))
+        assert checkpoints.newest(disk / "run" / "checkpoints") is not None
+        assert mount(disk, "20m")
+        assert mpm_taichi("--resume", disk / "run", "-q").returncode == 0
+        assert results(disk / "run") == results(whole)
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)
 
 
 FAILING = (

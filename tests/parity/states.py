@@ -55,8 +55,8 @@ def walls(dim, rules):
     )
 
 
-def build(rng, dim, basis, transfer, ends=(), pace=None, **options):
-    """The same bodies in the fast solver, which takes whole steps if it is given a `pace`, and in
+def build(rng, dim, basis, transfer, ends=(), whole=False, **options):
+    """The same bodies in the fast solver, which takes whole steps if asked to, and in
     the twin."""
     common = list(bodies(rng, dim, ends))
     gravity = rng.normal(size=dim)
@@ -72,7 +72,7 @@ def build(rng, dim, basis, transfer, ends=(), pace=None, **options):
         )  # fmt: skip
 
     return (
-        make(Solver, bases, transfers, boundaries, pace=pace),
+        make(Solver, bases, transfers, boundaries, whole=whole),
         make(TwinSolver, twin_bases, twin_transfers, twin_boundaries),
     )
 

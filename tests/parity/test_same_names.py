@@ -107,7 +107,7 @@ def test_laws_have_the_same_functions(path):
 
 def test_the_step_has_the_same_parameters():
     ours, theirs = modules("solver.py")
-    memory_and_threads = {"pace", "threads", "atomic"}
+    memory_and_threads = {"whole", "threads", "atomic"}
     kept = [p for p in parameters(ours.Solver) if p not in memory_and_threads]
     assert kept == parameters(theirs.Solver)
     for name in ("start", "step"):

@@ -102,6 +102,7 @@ def test_steps_and_stages_equal_the_twin(exact, rng, dim, basis, transfer):
     assert_equal(fast, twin, "after a step by hand")
     assert G.speed_squared[None] == pytest.approx(N.speed_squared, rel=TOLERANCE)
     assert G.rate_squared[None] == pytest.approx(N.rate_squared, rel=TOLERANCE)
+    assert G.compression[None] == pytest.approx(N.compression, rel=TOLERANCE)
     for group, twin_group in zip(P.groups, Q.groups, strict=True):
         ours = stiffness.stiffest(P, group, G)
         assert ours == pytest.approx(twin_stiffness.stiffest(Q, twin_group, N), rel=TOLERANCE)

@@ -116,3 +116,20 @@ def test_moduli_at_rest_are_those_of_the_material(material, dim):
         assert 0 < extra < 0.2 * wave
     assert wave == pytest.approx(material.density * material.wave_speed() ** 2, rel=1e-12)
     assert lone == pytest.approx(material.dilatation_modulus(dim), rel=1e-12)
+
+
+@each
+@each_dim
+def test_moduli_grow_no_faster_than_is_told(rng, material, dim):
+    """Over a small strain 1e-6 L along any of 100 motions, and of swelling and shrinking alike in
+    all directions, at stretches between 0.75 and 1.25: moduli grow by at most `stiffening`; 1e-3 of
+    it for the differences."""
+    told = material.stiffening(dim)
+    for F in states(rng, material, dim):
+        now, _, _ = at(material, F)
+        motions = [*rng.normal(size=(100, dim, dim)), np.eye(dim), -np.eye(dim)]
+        for L in motions:
+            rate = max(told[0] * np.linalg.norm(L), -told[1] * np.trace(L))
+            later, _, _ = at(material, F + STEP * L @ F)
+            for before, after in zip(now, later, strict=True):
+                assert np.log(after / before) <= STEP * rate * (1 + 1e-3)

@@ -34,6 +34,7 @@ def decoded(page: str) -> tuple[dict, list[np.ndarray]]:
     n, dim = header["particles"], header["dimension"]
     packed = sum("step" in quantity for quantity in header["quantities"])
     kinds = [np.uint16] * dim + [np.uint8] * (dim + packed)
+    kinds += [np.uint16] * 11 * bool(header["walk"])
     channels = [np.zeros((0, n), kind) for kind in kinds]
     for block in range(header["blocks"]):
         data = zlib.decompress(base64.b64decode(text_of(page, f"data-block-{block}")))

@@ -9,6 +9,7 @@ import pytest
 from mpm_taichi import cli, run_folder
 from mpm_taichi.errors import InputError
 from mpm_taichi.simulation import Simulation
+from mpm_taichi.whole_files import write_json
 from tests.command_line import SCENES
 
 SHORT = (
@@ -42,7 +43,16 @@ def test_folders_are_numbered(tmp_path, monkeypatch):
     made = [run_folder.create("drop", None, False) for _ in range(3)]
     assert made == [Path(f"runs/drop-00{k}") for k in (1, 3, 4)]
     assert run_folder.create("ball", None, False) == Path("runs/ball-001")
-    assert run_folder.create("drop", None, True) == Path("runs/drop-005")
+
+
+def test_overwrite_is_about_a_folder_that_is_named(tmp_path, monkeypatch):
+    """Without -o it would be accepted and ignored; a name that no folder can have is told."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=r"--overwrite: is for -o DIR"):
+        run_folder.create("drop", None, True)
+    with pytest.raises(InputError, match=r"-o: File name too long"):
+        run_folder.refuse(Path("x" * 300), False)
+    assert names(tmp_path) == []
 
 
 def test_runs_started_at_once_get_folders_of_their_own(tmp_path, monkeypatch):
@@ -163,10 +173,10 @@ def test_a_run_says_that_it_runs(tmp_path, monkeypatch, capfd):
 def test_files_appear_whole(tmp_path):
     """Written beside and renamed: an old file is complete until the new one is, no part remains."""
     path = tmp_path / "run.json"
-    run_folder.write_json(path, {"a": 1})
+    write_json(path, {"a": 1})
     with pytest.raises(TypeError):
-        run_folder.write_json(path, {"a": object()})
+        write_json(path, {"a": object()})
     assert json.loads(path.read_text()) == {"a": 1}
-    run_folder.write_json(path, {"a": 2})
+    write_json(path, {"a": 2})
     assert json.loads(path.read_text()) == {"a": 2}
     assert names(tmp_path) == ["run.json"]

@@ -221,6 +221,11 @@ MATERIALS_AND_BODIES = [
     ),
     ("name: upper", "name: lower", "22:5: bodies[1].name: 'lower' is also the name of bodies[0]"),
     (
+        "name: upper",
+        'name: "up\\nper"',
+        "22:5: bodies[1].name: must be on one line, of characters that show",
+    ),
+    (
         "type: ball,",
         "type: bal,",
         "19:13: bodies[0].shape.type: must be one of ball, box, cylinder, ring (got 'bal'); did "

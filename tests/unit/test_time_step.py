@@ -140,12 +140,12 @@ def test_an_automatic_step_shrinks_at_once_and_grows_slowly(scene):
 
 def test_stiffer_material_takes_shorter_steps(scene):
     """Four times as stiff: half the step, and the limit names the particle; a look is due before
-    it can have tripled, as J^2 does at a strain of ln 3 / (2 sqrt(dim))."""
+    it can have tripled, as the square of a stretch does at a strain of ln 3 / 2."""
     step = step_of(scene())
     long = step.choose()
     for _ in range(3):
         assert not step.is_look_due
-        step.move(0.1, Motion(0.0, log(3) / sqrt(8) / 0.29))
+        step.move(0.1, Motion(0.0, log(3) / 2 / 0.29))
     assert step.is_look_due
     seen(step, 4.0)
     assert not step.is_look_due

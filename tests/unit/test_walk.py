@@ -8,7 +8,8 @@ import pytest
 
 from mpm_taichi import Simulation, load_scene
 from mpm_taichi.errors import InputError, RunError
-from mpm_taichi.stage_formulas import STAGES, formulas
+from mpm_taichi.recorders.stages import look_ahead
+from mpm_taichi.stage_formulas import formulas, stage_names
 from mpm_taichi.walk import Stage, Walk
 
 LATTICE = Path(__file__).parents[2] / "scenes" / "two_disks_lattice.yaml"
@@ -25,26 +26,27 @@ def scene_of(changes):
 
 @pytest.fixture(scope="module", params=METHODS)
 def steps(request):
-    """The stages of some steps, all with their numbers, and the particles at the end: of the walk,
-    of the same steps in stages, and of whole steps in one launch."""
-    scene = scene_of(METHODS[request.param])
+    """Some steps from the same start, in three ways: whole in one launch, in stages, and walked, of
+    which all stages are kept with their numbers."""
+    simulation = Simulation(scene_of(METHODS[request.param]), threads=1)
+    assert simulation.solver.is_whole
+    clock, fields = everything(simulation)
     found = {}
     for way in ("whole", "staged"):
-        simulation = Simulation(scene, threads=1)
-        assert simulation.solver.is_whole
         simulation.solver.is_whole = way == "whole"
         for _ in range(STEPS):
             simulation.step()
-        found[way] = end_of(simulation)
-    walk = Walk(Simulation(scene, threads=1), particle=40)
+        found[way] = everything(simulation)
+        simulation.restore(clock, fields)
+    walk = Walk(simulation, particle=40)
     stages = [walk.advance() for _ in range(4 * STEPS)]
-    return Walked(walk, stages, found | {"walk": end_of(walk.simulation)})
+    return Walked(walk, stages, found | {"walk": everything(simulation)})
 
 
-def end_of(simulation):
-    fields = simulation.solver.particles.stored
-    particles = {name: field.to_numpy() for name, field in fields.items()}
-    return particles, simulation.time, simulation.step_count, simulation.dt
+def everything(simulation):
+    """Numbers and fields, as a checkpoint keeps them."""
+    stored = simulation.solver.stored
+    return simulation.state(), {name: field.to_numpy() for name, field in stored.items()}
 
 
 class Walked(NamedTuple):
@@ -61,18 +63,20 @@ def test_a_walk_ends_where_the_steps_end(steps):
     """The walk calls the kernels of the step in their order, so it equals the steps in stages to
     the last bit.  Whole steps are compiled as one kernel, whose terms may be rounded otherwise:
     1e-12 of the largest value, as in the parity tests."""
-    ours, *clock = steps.found["walk"]
+    (ours, fields) = steps.found["walk"]
     for way, tolerance in (("staged", 0.0), ("whole", 1e-12)):
-        theirs, *its_clock = steps.found[way]
-        assert clock[1] == its_clock[1] == STEPS
-        assert clock == pytest.approx(its_clock, rel=tolerance)
-        for name, values in ours.items():
-            assert np.abs(values - theirs[name]).max() <= tolerance * np.abs(values).max(), name
+        theirs, its_fields = steps.found[way]
+        assert ours["step_count"] == theirs["step_count"] == STEPS
+        for name in ("time", "dt", "last_dt"):
+            assert ours[name] == pytest.approx(theirs[name], rel=tolerance)
+        for name, values in fields.items():
+            assert np.abs(values - its_fields[name]).max() <= tolerance * np.abs(values).max(), name
+    assert ours == steps.found["staged"][0]
 
 
 def test_stages_follow_the_method(steps):
     """Update stress last: the four stages of the source slides, then the next step."""
-    assert [stage.name for stage in steps.stages] == list(STAGES[1:]) * STEPS
+    assert [stage.name for stage in steps.stages] == list(stage_names(steps.scene)) * STEPS
     assert all(stage.formula == formulas(steps.scene, stage.name) for stage in steps.stages)
     assert [stage.time for stage in steps.stages[::4]] == pytest.approx([0, 1e-3, 2e-3])
 
@@ -80,7 +84,7 @@ def test_stages_follow_the_method(steps):
 def test_weights_and_masses(steps):
     """sum_i w_ip = 1 and sum_i grad w_ip = 0 to rounding (the gradients are some 100 / m); the
     nodes have the mass of all particles, and after the reset none."""
-    total = steps.found["walk"][0]["m"].sum()
+    total = steps.found["walk"][1]["m"].sum()
     for stage in steps.stages:
         assert stage.weights.sum() == pytest.approx(1, abs=1e-14)
         assert np.abs(stage.gradients.sum(axis=0)).max() < 1e-11
@@ -147,6 +151,20 @@ def test_nothing_else_moves_amid_a_step(steps):
 def test_formulas_are_those_of_the_method(method, stage, line):
     """As the module docstrings of the transfers, and Solver.stages for orders of the stress."""
     assert line in formulas(scene_of([f"method={method}"]), stage)
+
+
+def test_a_step_that_is_seen_ahead_is_taken_back(steps):
+    """To see the next step for a recorder leaves everything as it was, to the last bit; and what is
+    seen is the step that then comes."""
+    simulation = steps.walk.simulation
+    clock, fields = everything(simulation)
+    stages = look_ahead(simulation)
+    its_clock, its_fields = everything(simulation)
+    assert its_clock == clock and its_fields.keys() == fields.keys()
+    assert all((its_fields[name] == values).all() for name, values in fields.items())
+    assert tuple(stages) == stage_names(steps.scene)[:-1]
+    simulation.step()
+    assert (stages["nodes to particles"].position == simulation.snapshot.position).all()
 
 
 def test_3d_is_refused():

@@ -17,7 +17,7 @@ from mpm_taichi.materials import NeoHookean
 from mpm_taichi.particles import BodyPoints
 from mpm_taichi.reference import bases as twin_bases
 from mpm_taichi.solver import Solver
-from mpm_taichi.time_step import HUGE, Pace
+from mpm_taichi.time_step import HUGE, Motion, Pace
 
 SOLID = NeoHookean(type="neo_hookean", density=1000, youngs_modulus=1e5, poissons_ratio=0.3)
 DX, HALF = 0.1, 0.25
@@ -60,9 +60,9 @@ def alone(rng, dim, basis, transfer, part):
     still, V0 = np.zeros((COUNT, dim)), np.full(COUNT, (2 * HALF * DX) ** dim)
     body = BodyPoints(SOLID, DX * xi, still, V0, H=H)
     pace = Pace(dt, 1.0, HUGE, 1.0, HUGE, HUGE, HUGE, 1.0)
-    solver = Solver([body], cells, DX, basis, transfer, (), [0.0] * dim, pace=pace)
+    solver = Solver([body], cells, DX, basis, transfer, (), [0.0] * dim, whole=True)
     solver.start(dt)
-    return solver, Clock(0.0, dt, 1e9 * dt, 0.0, dt, 0.0, 0.0, np.inf)
+    return solver, Clock(0.0, dt, 1e9 * dt, 0.0, dt, Motion(), np.inf, pace)
 
 
 def strains(solver, clock, steps):

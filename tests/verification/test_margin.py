@@ -2,7 +2,7 @@
 
 import pytest
 
-from mpm_taichi import Simulation, bases, load_scene, margin, transfers
+from mpm_taichi import Simulation, bases, cli, load_scene, margin, transfers
 from mpm_taichi.errors import InputError
 
 from .test_lone_particle import limit_at
@@ -55,3 +55,10 @@ def test_what_no_linear_step_stands_for_is_refused(scene):
     with pytest.raises(InputError, match="at most 20000 particles"):
         margin.refuse(scene(), 20_001)
     margin.refuse(scene(), 20_000)
+
+
+def test_options_that_the_margin_does_not_know_are_refused(tmp_path, capsys):
+    """It is measured in f64 on one thread of the CPU, whatever a run would take."""
+    for words in (["--precision", "f32"], ["--threads", "2"], ["--device", "vulkan"]):
+        assert cli.main(["check", str(tmp_path / "x.yaml"), "--margin", *words]) == 2
+        assert "leave out --device, --precision, --threads" in capsys.readouterr().err

@@ -18,7 +18,7 @@ from mpm_taichi.window.canvas import draw_canvas
 from mpm_taichi.window.gestures import Gestures, keys, particle_at
 from mpm_taichi.window.layout import layout_of
 from mpm_taichi.window.log import green_strain, log_lines, table
-from mpm_taichi.window.looks import COLORS, looks_of
+from mpm_taichi.window.looks import COLORS, Looks, looks_of
 from mpm_taichi.window.panel import draw_panel
 from mpm_taichi.window.playback import Playback
 from mpm_taichi.window.scales import Scales
@@ -440,6 +440,18 @@ class TestViewpoint:
             assert camera.axes @ camera.axes.T == pytest.approx(np.eye(3))
             assert camera.axes[1, 1] >= -1e-12 and camera.axes[2, 1] >= 0
             assert np.isfinite(camera.pixel_of(corners(view.size))).all()
+
+
+def test_looks_begin_as_the_pictures():
+    """Color and grid of `output.images`; where those have no grid it is off, and to be seen once it
+    is on."""
+
+    def begin(**images):
+        return looks_of(SimpleNamespace(output=SimpleNamespace(images=Style(**images))))
+
+    assert begin(color_by="density", grid=0.7) == Looks("density", True, 0.7)
+    assert begin(grid=0) == Looks("speed", False, 0.5)
+    assert looks_of(SimpleNamespace(output=SimpleNamespace(images="none"))) == Looks()
 
 
 def test_layout_of_any_size(rng):

@@ -112,8 +112,9 @@ class Window:
 
     def xdotool(self, *words) -> str:
         done = subprocess.run(
-            ["xdotool", *map(str, words)], env=self.env, capture_output=True, text=True, timeout=PATIENCE
-        )
+            ["xdotool", *map(str, words)],
+            env=self.env, capture_output=True, text=True, timeout=PATIENCE,
+        )  # fmt: skip
         assert done.returncode == 0, done.stderr
         return done.stdout
 

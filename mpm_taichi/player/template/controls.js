@@ -3,10 +3,11 @@
 function connect(page) {
   const clicks = {
     play: () => page.playing ? page.stop() : page.play(),
-    step: () => page.go(page.frame + 1),
-    reset: () => page.go(0),
+    step: () => page.step(1),
+    reset: () => page.restart(),
     grid: () => page.toggleGrid(),
     "log-button": () => page.toggleLog(),
+    "walk-button": () => page.toggleWalk(),
   };
   for (const [id, act] of Object.entries(clicks)) byId(id).onclick = act;
   byId("seek").oninput = () => page.go(+byId("seek").value);
@@ -20,18 +21,19 @@ function connect(page) {
 
 const KEYS = {
   " ": (page, clicks) => clicks.play(),
-  arrowleft: page => page.go(page.frame - 1),
-  arrowright: page => page.go(page.frame + 1),
+  arrowleft: page => page.step(-1),
+  arrowright: page => page.step(1),
   home: page => page.go(0),
   end: page => page.go(page.last),
   g: page => page.toggleGrid(),
   l: page => page.toggleLog(),
+  s: page => page.toggleWalk(),
   c: page => page.nextColor(),
   "+": page => page.zoom(1.25),
   "=": page => page.zoom(1.25),
   "-": page => page.zoom(0.8),
   0: page => page.showAll(),
-  escape: page => page.pick(null),
+  escape: page => page.walk.isOn ? page.toggleWalk() : page.pick(null),
 };
 
 /** Keys that mean something to the element that has the focus. */

@@ -12,8 +12,10 @@ class Film {
     this.velocities = make(Uint8Array, dim);
     this.packed = this.quantities.filter(quantity => "step" in quantity);
     for (const quantity of this.packed) quantity.channel = new Uint8Array(values);
+    this.stages = this.walk && new Stages(this);
     this.channels = [
       ...this.coordinates, ...this.velocities, ...this.packed.map(quantity => quantity.channel),
+      ...(this.stages?.all ?? []),
     ];
     this.loaded = 0;  // frames that are there
     this.crc = 0;
@@ -42,6 +44,13 @@ class Film {
     this.loaded = end;
   }
 
+  /** The next block of the nodes of stages, after all frames. */
+  async loadNodes(number) {
+    const bytes = await inflated(`data-nodes-${number}`);
+    this.crc = crc32(bytes, this.crc);
+    this.stages.read(bytes);
+  }
+
   get checksum() { return this.crc.toString(16).padStart(8, "0"); }
 
   /** The last frame that is not after a time. */
@@ -66,6 +75,11 @@ class Film {
     });
     for (let p = 0; p < n; p++) out[4 * p + 3] = this.isGone(k, p) ? 0 : this.radius[p];
     return out;
+  }
+
+  position(k, p) {
+    const at = k * this.particles + p;
+    return this.coordinates.map((channel, axis) => this.low[axis] + this.step[axis] * channel[at]);
   }
 
   velocity(k, p) {

@@ -16,8 +16,8 @@ class Ground {
     return this.dim == 2 ? [across, along, 0] : [across, 0, along];
   }
 
-  /** The domain and its grid, which is `opacity` visible. */
-  drawUnder(pen, camera, opacity) {
+  /** The domain and its grid, which is `opacity` visible, with the numbers of its cells if asked. */
+  drawUnder(pen, camera, opacity, isNumbered) {
     const [across, along] = this.plane.map(axis => this.size[axis]);
     const colors = this.theme.css;
     pen.fillStyle = colors.panel;
@@ -38,7 +38,7 @@ class Ground {
         }
       });
       pen.stroke();
-      this.drawNumbers(pen, camera);
+      if (isNumbered) this.drawNumbers(pen, camera);
     }
     pen.globalAlpha = 1;
     this.drawEdges(pen, camera, false);

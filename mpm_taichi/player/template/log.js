@@ -18,12 +18,10 @@ class Log {
       rows.push(["particle", `${picked}, which has left`]);
     } else {
       const velocity = film.velocity(k, picked), m = film.mass[picked];
-      const place = film.coordinates.map((channel, axis) =>
-        film.low[axis] + film.step[axis] * channel[k * film.particles + picked]);
       rows.push(
         ["particle", `${picked} (${film.bodies[film.body[picked]]})`],
         ["mass", withUnit(m, "kg", 4, false)],
-        ["position", vector(place, "m", 4)],
+        ["position", vector(film.position(k, picked), "m", 4)],
         ["velocity", vector(velocity, "m/s", 3)],
       );
       for (const quantity of film.packed) {

@@ -16,6 +16,8 @@ async function open() {
     await new Promise(resolve => setTimeout(resolve));
     await film.loadBlock(block);
   }
+  for (let block = 0; block < film.nodeBlocks; block++) await film.loadNodes(block);
+  page.draw();
   byId("message").hidden = true;
   byId("integrity").textContent = film.checksum == film.checksumWritten
     ? `Check sum ${film.checksum}: the frames are as they were written.`

@@ -10,6 +10,8 @@ class Page {
     this.ground = new Ground(film, this.theme);
     this.colors = new Colors(film);
     this.log = new Log(film);
+    this.walk = new Walk(film);
+    this.sketch = new Sketch(this.theme);
     this.chart = film.history && new Chart(film, byId("chart"), byId("key"));
     this.places = new Float32Array(4 * wholeRows(film.particles));
     this.frame = 0;
@@ -43,6 +45,7 @@ class Page {
     byId("drag-words").textContent = film.dimension == 2
       ? "moves the picture" : "turns the picture; with shift or two fingers, moves it";
     byId("energies").hidden = !film.history;
+    byId("walk-button").hidden = !this.walk.isThere;
     byId("color").append(
       ...film.quantities.map(({ name, label }) => make("option", { value: name }, label)));
     byId("color").value = this.quantity.name;
@@ -91,10 +94,59 @@ class Page {
     this.show(Math.min(Math.max(frame, 0), this.last));
   }
 
+  /** A frame on (1) or back (-1); stage by stage, a stage. */
+  step(way) {
+    const { walk } = this, number = walk.number + way;
+    if (!walk.isOn || !walk.stages) {
+      this.go(this.frame + way);
+    } else if (number >= 0 && number <= walk.last) {
+      walk.number = number;
+      this.go(this.frame);
+    } else if (this.frame + way >= 0 && this.frame + way <= this.last) {
+      walk.number = way > 0 ? 0 : walk.last;
+      this.go(this.frame + way);
+    }
+  }
+
+  restart() {
+    this.walk.number = 0;
+    this.go(0);
+  }
+
   /** A frame, or the last that is loaded. */
   show(frame) {
     this.frame = Math.min(frame, this.film.loaded - 1);
+    this.follow();
     this.draw();
+  }
+
+  /** Shows the step that follows the frame stage by stage, close to the picked particle or, where
+   *  none is, to that in the middle; or the whole again. */
+  toggleWalk() {
+    const { walk, camera, film } = this;
+    if (!walk.isThere) return;
+    walk.isOn = !walk.isOn;
+    walk.number = 0;
+    if (walk.isOn && walk.stages) {
+      this.stop();
+      this.picked ??= this.nearest(camera.column, camera.row, Infinity);
+      this.viewBefore = { ...camera.view };
+      const cell = film.domain.size[0] / film.domain.cells[0];
+      const cells = BASES[walk.stages.basis].support + 3;  // across the shorter side
+      const close = Math.min(camera.width, camera.height) / cells / cell;
+      camera.zoomBy(Math.max(close / camera.scale, 1));
+      this.follow();
+    } else if (this.viewBefore) {
+      camera.view = this.viewBefore;
+      this.viewBefore = null;
+    }
+    this.draw();
+  }
+
+  /** Stage by stage, the picked particle stays in the middle. */
+  follow() {
+    if (!this.walk.isOn || this.picked == null || this.film.isGone(this.frame, this.picked)) return;
+    this.camera.view.center = [...this.film.position(this.frame, this.picked), 0].slice(0, 3);
   }
 
   toggleGrid() {
@@ -131,26 +183,30 @@ class Page {
     this.draw();
   }
 
-  /** Picks the particle that is seen at a place of the stage, if one is, for the log. */
+  /** Picks the particle that is seen at a place of the stage, if one is, for the log or for the
+   *  stages, which are shown of the next one. */
   pickAt(column, row) {
-    this.pick(this.particleAt(column, row));
-    if (this.picked != null) this.toggleLog(true);
+    const { walk } = this;
+    this.pick(this.nearest(column, row, walk.isOn ? Infinity : FINGER));
+    if (this.picked != null && !walk.isOn) this.toggleLog(true);
   }
 
   pick(particle) {
     this.picked = particle;
+    this.follow();
     this.draw();
   }
 
-  /** The number of the particle that is seen at a place of the stage, or null. */
-  particleAt(column, row) {
+  /** The number of the particle that is seen at a place of the stage, or up to `far` pixels from
+   *  it, or null. */
+  nearest(column, row, far) {
     const { places, film, camera } = this;
     let found = null, best = -Infinity;
     for (let p = 0; p < film.particles; p++) {
       const radius = places[4 * p + 3];
       const [x, y, scale, toward] = camera.look(places.subarray(4 * p, 4 * p + 3));
       const away = Math.hypot(x - column, y - row);
-      if (radius == 0 || !(away < Math.max(radius * scale, FINGER))) continue;
+      if (radius == 0 || !(away < Math.max(radius * scale, far))) continue;
       const merit = film.dimension == 3 ? toward : -away;
       if (merit > best) [found, best] = [p, merit];
     }
@@ -177,15 +233,18 @@ class Page {
     const { film, camera, ground, frame, picked } = this, ratio = devicePixelRatio || 1;
     if (!(camera.width > 0 && camera.height > 0)) return;
     film.places(frame, this.places);
-    ground.drawUnder(
-      onPixels(byId("under"), ratio), camera, this.isGridShown ? +byId("opacity").value : 0);
+    const moment = this.walk.show(frame, picked), isSketched = moment != null && !this.playing;
+    const opacity = this.isGridShown ? +byId("opacity").value : 0;
+    ground.drawUnder(onPixels(byId("under"), ratio), camera, opacity, !isSketched);
     this.paint(ratio);
     const over = onPixels(byId("over"), ratio);
     ground.drawOver(over, camera);
+    byId("particles").classList.toggle("faint", isSketched);
     if (picked != null && !film.isGone(frame, picked)) {
       const place = this.places.subarray(4 * picked, 4 * picked + 3);
       ground.drawRing(over, camera, place, film.radius[picked]);
     }
+    if (isSketched) this.sketch.draw(over, camera, moment);
     this.tell();
     if (!byId("log").hidden) this.log.show(frame, picked);
     this.chart?.draw(frame, ratio);

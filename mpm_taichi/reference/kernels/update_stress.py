@@ -21,8 +21,8 @@ def update_stress(
 
     On return A and T = - dt_next V0 tau are what P2G scatters; `particles.lost` is the least id of
     a particle outside the closed domain, or the number of particles; once particles have moved the
-    grid has the largest |sum_i w_ip v_i|^2 and |L|^2 of this step.  A `tally` has noted the work of
-    the stress."""
+    grid has the largest |sum_i w_ip v_i|^2, |L|^2 and - tr L of this step.  A `tally` has noted the
+    work of the stress."""
     c = group.constants
     for p in group.members:
         L = particles.S[p]
@@ -47,4 +47,5 @@ def update_stress(
             particles.x[p] = particles.x[p] + dt * particles.v_pic[p]
             grid.speed_squared = max(grid.speed_squared, (particles.v_pic[p] ** 2).sum())
             grid.rate_squared = max(grid.rate_squared, (L**2).sum())
+            grid.compression = max(grid.compression, -L.trace())
             note_if_lost(p, particles.x[p], particles, grid)

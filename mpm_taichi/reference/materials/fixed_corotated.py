@@ -23,8 +23,14 @@ class FixedCorotated(MaterialLaw):
         _, most = squared_stretches(H)
         stretch, J, lam = np.sqrt(most), 1 + volume_strain(H), max(c.lam, 0.0)
         wave = c.mu * max(2 * most, stretch) + lam * J**2
-        lone = 2 * c.mu * max(2 * most - stretch, 0.0)
-        return wave, lone + len(H) * lam * max(J * (2 * J - 1), 0.0)
+        lone = 2 * c.mu * FixedCorotated.slope(stretch) + len(H) * lam * FixedCorotated.slope(J)
+        return wave, lone
+
+    @staticmethod
+    def slope(a):
+        """d(a^2 - a) / d ln a = 2 a^2 - a; below 3/4 a^4 of the same value there, which lies above
+        it and grows no faster."""
+        return a * (2 * a - 1) if a >= 0.75 else 32 / 27 * a**4
 
     @staticmethod
     def energy_density(c, H, s):
