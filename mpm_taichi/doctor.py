@@ -60,6 +60,7 @@ LIBRARIES = {
 PROGRAMS = {
     "a window without a display": {"xvfb-run": "xvfb", "xauth": "xauth"},
     "clicking tests of the player": {"chromium": "chromium"},
+    "clicking tests of the window": {"Xvfb": "xvfb", "xdotool": "xdotool"},
 }
 
 DRIVERS = ("/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d")
@@ -70,7 +71,7 @@ def examine() -> dict[str, Any]:
     """All that there is to know, ready for JSON.  Nothing that crashes takes this process along."""
     with ThreadPoolExecutor() as threads:
         tries = {device: threads.submit(_backend, device) for device in BACKENDS}
-        tries["window"] = threads.submit(_window)
+        tries["window"] = threads.submit(window)
         tries["system"] = threads.submit(_system)
         done = {name: one.result() for name, one in tries.items()}
     cache = next((done[device].pop("cache", None) for device in BACKENDS), None)
@@ -142,7 +143,8 @@ def _backend(device: str) -> dict[str, Any]:
     return found
 
 
-def _window() -> dict[str, Any]:
+def window() -> dict[str, Any]:
+    """Whether one `opens`, and a `note` on why not."""
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         return {"opens": False, "note": "there is no display (DISPLAY is not set)"}
     answers, fault = probe("window")

@@ -21,12 +21,13 @@ from . import (
     replay,
     run,
     schema,
+    view,
 )
 
 COMMANDS = {
     module.__name__.rpartition(".")[2]: module
     for module in (
-        run, new, list, check, replay, export, plot, compare, converge, advise, materials, curve,
-        schema, doctor,
+        run, view, new, list, check, replay, export, plot, compare, converge, advise, materials,
+        curve, schema, doctor,
     )
 }  # fmt: skip

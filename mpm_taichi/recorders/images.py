@@ -1,10 +1,7 @@
 """frames/frame_0000.png, ...: a picture at each output."""
 
-from math import inf
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 
 class Images:
@@ -14,10 +11,11 @@ class Images:
     every_steps = None
 
     def __init__(self, folder: Path, simulation, style, state=None):
+        from ..renderers import moment  # Pillow, which a run without pictures spares
+
         folder.mkdir(exist_ok=True)
         self.folder, self.style = folder, style
-        widest = (inf, -inf) if style.color_by == "density" else (0.0, 0.0)
-        low, high = widest if style.range is None else style.range
+        low, high = moment.narrowest(style.color_by) if style.range is None else style.range
         before = state or {"count": 0, "low": low, "high": high}
         self.count, self.low, self.high = before["count"], before["low"], before["high"]
         for path in folder.glob("frame_*.png"):
@@ -28,31 +26,18 @@ class Images:
     def record(self, simulation, is_output):
         if not is_output:
             return
-        from ..renderers.picture import Frame, draw  # Pillow, which a run without pictures spares
+        from ..renderers.moment import frame_of, value_of
+        from ..renderers.picture import draw
         from ..renderers.png import write_png
 
-        scene, snapshot = simulation.scene, simulation.snapshot
-        value = self._value(snapshot)
+        scene, snapshot, quantity = simulation.scene, simulation.snapshot, self.style.color_by
+        value = value_of(snapshot, quantity)
         if value is not None and self.style.range is None:
             self.low, self.high = min(self.low, value.min()), max(self.high, value.max())
-        edge = snapshot.initial_volume ** (1 / scene.dimension)
-        frame = Frame(
-            position=snapshot.visible_position,
-            radius=0.5 * edge,
-            body=simulation.body_of_particle,
-            body_names=[body.name for body in scene.bodies],
-            time=snapshot.time,
-            longest_time=simulation.end,
-            title=scene.title,
-            domain_size=tuple(scene.domain.size),
-            cells=tuple(scene.domain.cells),
-            quantity=self.style.color_by,
-            value=value,
-            value_range=(float(self.low), float(self.high)),
-        )
-        path = self.folder / f"frame_{self.count:04d}.png"
+        shown = float(self.low), float(self.high)
+        frame = frame_of(simulation, snapshot, quantity, value, shown)
         write_png(
-            path,
+            self.folder / f"frame_{self.count:04d}.png",
             draw(frame, self.style.grid, self.style.size),
             {"Title": scene.title, "time": repr(snapshot.time)},
         )
@@ -63,13 +48,3 @@ class Images:
 
     def close(self):
         """Pictures are whole as soon as they are there."""
-
-    def _value(self, snapshot) -> np.ndarray | None:
-        return {
-            "body": lambda: None,
-            "speed": lambda: snapshot.speed,
-            "pressure": lambda: snapshot.pressure,
-            "stress": lambda: snapshot.von_mises_stress,
-            "density": lambda: snapshot.density,
-            "plastic_strain": lambda: snapshot.plastic_strain,
-        }[self.style.color_by]()

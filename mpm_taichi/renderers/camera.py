@@ -69,21 +69,27 @@ def corners(size: np.ndarray) -> np.ndarray:
     return np.array(list(itertools.product(*([0.0, length] for length in size))))
 
 
-def orientation(dim: int) -> np.ndarray:
+def orientation(dim: int, turn: float = TURN, tilt: float = TILT) -> np.ndarray:
     """Rows: the directions to the right, up and toward the viewer, in the axes of the domain."""
     if dim == 2:
         return np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
-    toward = np.array([np.sin(TURN) * np.cos(TILT), np.sin(TILT), np.cos(TURN) * np.cos(TILT)])
-    right = np.array([np.cos(TURN), 0.0, -np.sin(TURN)])
+    toward = np.array([np.sin(turn) * np.cos(tilt), np.sin(tilt), np.cos(turn) * np.cos(tilt)])
+    right = np.array([np.cos(turn), 0.0, -np.sin(turn)])
     return np.array([right, np.cross(toward, right), toward])
+
+
+def viewpoint(domain_size) -> Camera:
+    """From where the pictures see the box [0, domain_size]; a pixel per meter."""
+    box = np.asarray(domain_size, float)
+    distance = np.inf if len(box) == 2 else float(DISTANCE * np.linalg.norm(box) / 2)
+    return Camera(orientation(len(box)), box / 2, distance)
 
 
 def fit(domain_size, size: int) -> Camera:
     """The camera that shows the box [0, domain_size] `size` pixels long on the picture's longer
     side, within margins for the texts; width and height of the whole are even."""
     box = np.asarray(domain_size, float)
-    distance = np.inf if len(box) == 2 else float(DISTANCE * np.linalg.norm(box) / 2)
-    camera = Camera(orientation(len(box)), box / 2, distance)
+    camera = viewpoint(box)
     seen = camera.pixel_of(corners(box))
     scale = size / np.ptp(seen, axis=0).max()
     low, high = seen.min(0) * scale, seen.max(0) * scale

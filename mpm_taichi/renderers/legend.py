@@ -66,20 +66,29 @@ def heading(camera: Camera, title: str, time: float, longest_time: float) -> lis
 
 def scale_bar(image: np.ndarray, camera: Camera) -> list[Text]:
     """A bar of a round length: below the domain in 2D, on the lower front edge of its box in 3D."""
-    em = camera.em
     if len(camera.center) == 2:
-        meters = round_length(5 * em / camera.scale)
-        start = np.array([camera.margin, camera.height - 3.1 * em])
-        end = start + np.array([meters * camera.scale, 0])
-        left, row = camera.margin, camera.height - 1.4 * em
-    else:
-        length_x, _, front = 2 * camera.center
-        meters = round_length(length_x / 3)
-        start, end = camera.pixel_of(np.array([(0, 0, front), (meters, 0, front)]))
-        middle, row = (start + end) / 2 + (-0.3 * em, 1.3 * em)
-        left = max(middle - length(with_unit(meters, "m"), em), camera.margin)
+        return bar_below(image, camera)
+    em = camera.em
+    length_x, _, front = 2 * camera.center
+    meters = round_length(length_x / 3)
+    start, end = camera.pixel_of(np.array([(0, 0, front), (meters, 0, front)]))
+    middle, row = (start + end) / 2 + (-0.3 * em, 1.3 * em)
+    left = max(middle - length(with_unit(meters, "m"), em), camera.margin)
+    return _bar(image, em, start, end, (left, row), meters)
+
+
+def bar_below(image: np.ndarray, camera: Camera) -> list[Text]:
+    """A bar of a round length in the lower left corner, in 3D as long as at the center."""
+    em = camera.em
+    meters = round_length(5 * em / camera.scale)
+    start = np.array([camera.margin, camera.height - 3.1 * em])
+    end = start + np.array([meters * camera.scale, 0])
+    return _bar(image, em, start, end, (camera.margin, camera.height - 1.4 * em), meters)
+
+
+def _bar(image, em, start, end, at, meters) -> list[Text]:
     draw_lines(image, start[None], end[None], palette.INK, thickness=max(1, em / 7))
-    return [Text((left, row), with_unit(meters, "m"), em, palette.INK, "ls")]
+    return [Text(at, with_unit(meters, "m"), em, palette.INK, "ls")]
 
 
 def color_bar(

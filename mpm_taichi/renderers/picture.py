@@ -53,10 +53,13 @@ def grid_lines(size: np.ndarray, cells: tuple[int, ...]) -> tuple[np.ndarray, np
     return np.concatenate(starts), np.concatenate(ends)
 
 
-def box_edges(size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Starts and ends [n, dim] of the edges of the domain, those at the corner `size` last."""
+def box_edges(camera: Camera, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Starts and ends [n, dim] of the edges of the domain, those at the corner next to the viewer
+    last."""
     at = corners(size)
+    nearest = int(camera.look(at).toward.argmax())
     pairs = [(a, b) for b in range(len(at)) for a in range(b) if (a ^ b).bit_count() == 1]
+    pairs.sort(key=lambda pair: nearest in pair)
     return at[[a for a, _ in pairs]], at[[b for _, b in pairs]]
 
 
@@ -103,8 +106,9 @@ def draw_as_spheres(image: np.ndarray, camera: Camera, frame: Frame) -> None:
     """The particles of a 3D domain, the far ones first and paled by their distance."""
     sight = camera.look(frame.position)
     radius = np.maximum(sight.scale * frame.radius, 0.7)
-    half = np.linalg.norm(camera.center)
-    nearness = np.clip(np.nan_to_num(0.5 + 0.5 * sight.toward / half), 0, 1)
+    half = 0.5 * np.asarray(frame.domain_size)
+    depth = (sight.toward - camera.look(half[None]).toward) / np.linalg.norm(half)
+    nearness = np.clip(np.nan_to_num(0.5 + 0.5 * depth), 0, 1)
     color = particle_colors(frame)
     color += HAZE * (1 - nearness)[:, None] * (palette.PANEL - color)
     order = np.argsort((65535 * nearness).astype(np.uint16), kind="stable")  # a radix sort
@@ -127,29 +131,49 @@ def draw(frame: Frame, grid_opacity: float = 0.5, size: int = 800) -> np.ndarray
 
     The longer side of the domain is `size` pixels long; the margins come on top of it.  The same
     frame gives the same bytes, whatever the precision and threads of the run."""
+    camera = fit(frame.domain_size, size)
+    image = draw_ground(camera, frame, grid_opacity)
+    draw_particles(image, camera, frame)
+    texts = legend.scale_bar(image, camera) + texts_around(image, camera, frame)
+    return legend.write(eight_bit(image), texts)
+
+
+def draw_ground(camera: Camera, frame: Frame, grid_opacity: float) -> np.ndarray:
+    """What lies behind the particles, on a new image of float32: the domain and its grid."""
     box = np.asarray(frame.domain_size, float)
-    camera = fit(box, size)
     image = backdrop(camera, box)
-    start, end = (camera.pixel_of(x) for x in box_edges(box))
-    if len(box) == 2:
-        draw_grid(image, camera, frame, grid_opacity)
-        draw_lines(image, start, end, palette.LINE)
-        draw_as_discs(image, camera, frame)
-    else:
+    if len(box) == 3:
         draw_shadow(image, camera, frame)
-        draw_grid(image, camera, frame, grid_opacity)
-        draw_lines(image, start[:-3], end[:-3], palette.LINE)
-        draw_as_spheres(image, camera, frame)
-        draw_lines(image, start[-3:], end[-3:], palette.LINE, opacity=0.6)  # before the particles
-    longest_time = max(frame.time, frame.longest_time)
-    texts = legend.heading(camera, frame.title, frame.time, longest_time)
-    texts += legend.scale_bar(image, camera)
+    draw_grid(image, camera, frame, grid_opacity)
+    start, end = (camera.pixel_of(x) for x in box_edges(camera, box))
+    behind = len(start) if len(box) == 2 else -3
+    draw_lines(image, start[:behind], end[:behind], palette.LINE)
+    return image
+
+
+def draw_particles(image: np.ndarray, camera: Camera, frame: Frame) -> None:
+    """In 3D with the edges before them."""
+    if len(frame.domain_size) == 2:
+        draw_as_discs(image, camera, frame)
+        return
+    draw_as_spheres(image, camera, frame)
+    edges = box_edges(camera, np.asarray(frame.domain_size, float))
+    start, end = (camera.pixel_of(x)[-3:] for x in edges)
+    draw_lines(image, start, end, palette.LINE, opacity=0.6)
+
+
+def texts_around(image: np.ndarray, camera: Camera, frame: Frame) -> list[legend.Text]:
+    """Title, time and what the colors mean, whose bar or dots go into the image."""
+    texts = legend.heading(camera, frame.title, frame.time, max(frame.time, frame.longest_time))
     if frame.quantity == "body":
-        texts += legend.body_names(image, camera, frame.body_names)
-    else:
-        quantity = QUANTITIES[frame.quantity]
-        shown = shown_range(quantity, *frame.value_range)
-        texts += legend.color_bar(image, camera, frame.quantity, quantity, *shown)
+        return texts + legend.body_names(image, camera, frame.body_names)
+    quantity = QUANTITIES[frame.quantity]
+    shown = shown_range(quantity, *frame.value_range)
+    return texts + legend.color_bar(image, camera, frame.quantity, quantity, *shown)
+
+
+def eight_bit(image: np.ndarray) -> np.ndarray:
+    """float32 from 0 to 1 -> uint8; the image itself is spoilt."""
     image *= 255
     image += 0.5
-    return legend.write(image.astype(np.uint8), texts)
+    return image.astype(np.uint8)
