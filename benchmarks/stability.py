@@ -1,7 +1,7 @@
 """The suite of hard cases: which scheme stays stable and right where codes break?
 
-    python benchmarks/stability.py [CASES ...] [--precision f32 f64] [--scheme "quadratic mls" ...]
-        [--quick] [--seed N] [--json FILE] [--picture FILE]
+    python benchmarks/stability.py [CASES ...] [--precision f32 f64] [--dim 2 3]
+        [--scheme "quadratic mls" ...] [--quick] [--seed N] [--json FILE] [--picture FILE]
 
 Cases: benchmarks/hard_cases/, each with its exact answer and the source of its bounds.  Of each row
 the status: `pass`, `fail`, `expected fail`, `passes though it should fail`, or `reported` (no
@@ -18,6 +18,7 @@ import json
 import random
 import sys
 import time
+from itertools import product
 from pathlib import Path
 
 from experiments import EVERY
@@ -32,9 +33,9 @@ HEAD = ("case", "scheme", "prec.", "dim", "status", "figures (! breaks its bound
 BAD = ("fail", "passes though it should fail")
 
 
-def row(case, scheme, seed: int, quick: bool) -> dict:
+def row(case, scheme, dimension: int, seed: int, quick: bool) -> dict:
     """One scheme on one case."""
-    began, draw, stopped = time.time(), Draw(seed, quick), None
+    began, draw, stopped = time.time(), Draw(seed, quick, dimension), None
     try:
         found = case.measure(scheme, draw)
     except RunError as error:
@@ -42,7 +43,7 @@ def row(case, scheme, seed: int, quick: bool) -> dict:
     return {
         "case": case.name, "title": case.title, "scheme": str(scheme), "basis": scheme.basis,
         "transfer": scheme.transfer, "stress_update": scheme.order,
-        "precision": scheme.precision, "dimension": case.dimension,
+        "precision": scheme.precision, "dimension": dimension,
         "status": case.status(scheme, found),
         "figures": [
             f._asdict() | {"holds": bool(f.holds), "value": float(f.value)} for f in found.figures
@@ -62,29 +63,42 @@ def table(rows: list[dict]) -> str:
     ])  # fmt: skip
 
 
+def save(file: Path, rows: list[dict], began: float) -> None:
+    content = {
+        "machine": machine(), "versions": versions(),
+        "date": time.strftime("%Y-%m-%d %H:%M:%S%z"), "seconds": time.time() - began,
+        "rows": rows,
+    }  # fmt: skip
+    file.write_text(json.dumps(content, indent=1) + "\n")
+
+
 def plan(options):
-    """Case and scheme of each row."""
+    """Case, scheme and dimension of each row."""
     for name in options.cases or CASES:
         case = CASES[name]
         for scheme in case.quick if options.quick else case.schemes:
             if options.scheme and str(scheme) not in options.scheme:
                 continue
-            for precision in options.precision or (("f64",) if options.quick else ("f64", "f32")):
-                if precision in case.precisions:
-                    yield case, scheme._replace(precision=precision)
+            for precision, dimension in product(
+                options.precision or (("f64",) if options.quick else ("f64", "f32")),
+                options.dim or ((2,) if options.quick else (2, 3)),
+            ):
+                if precision in case.precisions and dimension in case.dimensions:
+                    yield case, scheme._replace(precision=precision), dimension
 
 
 def parse(arguments=None):
     parser = argparse.ArgumentParser(description="hard cases, for every scheme")
     parser.add_argument("cases", nargs="*", metavar="CASES", help=f"of {' '.join(CASES)}")
     parser.add_argument("--precision", nargs="+", choices=("f32", "f64"))
+    parser.add_argument("--dim", nargs="+", type=int, choices=(2, 3), help="of those of a case")
     parser.add_argument(
         "--scheme", nargs="+", choices=sorted({str(s) for s in EVERY}), metavar="SCHEME",
         help='as "cubic mls" or "linear flip musl"; of those that a case has',
     )  # fmt: skip
-    parser.add_argument("--quick", action="store_true", help="a few schemes each, f64")
+    parser.add_argument("--quick", action="store_true", help="a few schemes each, 2D, f64")
     parser.add_argument("--seed", type=int, help="of what is drawn; default: drawn too")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers to this file")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers, row by row")
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw cases x schemes")
     options = parser.parse_args(arguments)
     unknown = [name for name in options.cases if name not in CASES]
@@ -97,23 +111,22 @@ def main(arguments=None) -> int:
     options, began = parse(arguments), time.time()
     seed = random.SystemRandom().randrange(2**31) if options.seed is None else options.seed
     rows = []
-    for case, scheme in plan(options):
-        rows.append(row(case, scheme, seed, options.quick))
-        done = f"{time.time() - began:5.0f} s: {case.name} {scheme.with_precision}: "
-        print(done + rows[-1]["status"], file=sys.stderr, flush=True)
+    for case, scheme, dimension in plan(options):
+        rows.append(row(case, scheme, dimension, seed, options.quick))
+        said = f"{case.name} {scheme.with_precision} {dimension}D"
+        done = f"{time.time() - began:5.0f} s: {said}: {rows[-1]['status']}"
+        if rows[-1]["status"] in BAD:
+            done += f": {rows[-1]['told']}"
+        print(done, file=sys.stderr, flush=True)
+        if options.json:
+            save(options.json, rows, began)
     print(table(rows))
-    for name in dict.fromkeys(r["case"] for r in rows):
-        print(f"{name}: {next(r['drawn'] for r in rows if r['case'] == name)}")
+    for drawn in dict.fromkeys(f"{r['case']} {r['dimension']}D: {r['drawn']}" for r in rows):
+        print(drawn)
     for r in rows:
         if r["stopped"]:
-            print(f"{r['case']} {r['scheme']} {r['precision']} stopped: {r['stopped']}")
-    if options.json:
-        content = {
-            "machine": machine(), "versions": versions(),
-            "date": time.strftime("%Y-%m-%d %H:%M:%S%z"), "seconds": time.time() - began,
-            "rows": rows,
-        }  # fmt: skip
-        options.json.write_text(json.dumps(content, indent=1) + "\n")
+            said = f"{r['case']} {r['scheme']} {r['precision']} {r['dimension']}D"
+            print(f"{said} stopped: {r['stopped']}")
     if options.picture:
         from stability_picture import draw
 

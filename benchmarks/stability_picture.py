@@ -29,7 +29,7 @@ def draw(path: Path, rows: list[dict]) -> None:
             worst = max(mine, key=lambda r: list(LOOK).index(r["status"]))
             color, word = LOOK[worst["status"]]
             if len({r["status"] for r in mine}) > 1:
-                word += f" {worst['precision']}"
+                word += f" {worst['precision']} {worst['dimension']}D"
             axes.add_patch(_cell(x, y, color))
             axes.text(x, y, word, ha="center", va="center", fontsize=8)
     axes.set_xlim(-0.5, len(schemes) - 0.5)

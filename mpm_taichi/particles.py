@@ -140,8 +140,8 @@ class Particles:
     deformation, for a body force that depends on it.
 
     `lost` is the least id of a particle outside the domain, `bad` of one whose numbers are none
-    (kernels/guard.py), or the number of particles; `brought_in` counts those that were put back
-    (kernels/outside.py)."""
+    (kernels/guard.py), or the number of particles; `parting` counts those far from their neighbors
+    (the same), `brought_in` those that were put back (kernels/outside.py)."""
 
     def __init__(
         self, bodies, basis, transfer, dx, keeps_pic=False, body_force=None, audited=False
@@ -166,6 +166,7 @@ class Particles:
         self.lost: Any = ti.field(int, ())
         self.bad: Any = ti.field(int, ())
         self.brought_in: Any = ti.field(int, ())
+        self.parting: Any = ti.field(int, ())
         scratch = {name: fields[name + SCRATCH] for name in ("x", "H", "m", "id", "rows")}
         self.carried = [(fields[name], room, 0) for name, room in scratch.items()]
         self.carried.append((self.V0, scratch["m"], 0))
@@ -180,7 +181,14 @@ class Particles:
             if law.has_state:
                 self.carried.append((law.state, law.scratch, law.begin))
         self.turns = turns(self.carried)
+        self.reach = self._reach(bodies)
         self.fill(bodies, ids)
+
+    def _reach(self, bodies):
+        """How far apart two particles may be that share a node [cells] (numerics.md, chapter 3)."""
+        if not self.basis.extended:
+            return self.basis.support - 1
+        return 1 + min(body.V0.min() for body in bodies) ** (1 / self.dim) / self.dx
 
     def fill(self, bodies, ids):
         """Values at the start; ids[k] is that of the first particle of body k.  Arrays are made in

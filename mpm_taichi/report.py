@@ -11,6 +11,7 @@ from .audit import Line
 from .audit import summary as audit_summary
 from .disk_space import planned_disk
 from .recorders import Errors, History
+from .time_step import OF_MOTION
 
 KEPT = r"mass|(angular_)?momentum(_[xyz])?|(kinetic|elastic|dissipated|gravitational)_energy"
 PACKAGES = ("taichi", "numpy", "gmsh", "meshio", "pydantic")
@@ -87,7 +88,10 @@ class Report:
 
 def whom(simulation, limit) -> str:
     """What or whose a limit is: of its cause or its particle."""
-    return limit.cause if limit.particle is None else simulation.describe_particle(limit.particle)
+    if limit.particle is None:
+        return limit.cause
+    who = simulation.describe_particle(limit.particle)
+    return f"{who}, {limit.cause}" if limit.name in OF_MOTION else who
 
 
 def versions() -> dict[str, str | None]:

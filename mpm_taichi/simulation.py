@@ -12,6 +12,7 @@ from .at_outputs import as_recorder
 from .bodies import body_points
 from .cautions import cautions
 from .errors import InputError, MotionError, RunError
+from .kernels import slivers
 from .kernels.guard import guard
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
@@ -43,7 +44,10 @@ GUARD_STEPS = 32
 COLLAPSE = 1e-6
 """An automatic step shorter than this part of the first one ends the run."""
 
-CLOCK = ("time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started")
+CLOCK = (
+    "time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started", "slivers",
+    "sliver_look", "parting",
+)  # fmt: skip
 """Of a Simulation, in a checkpoint."""
 
 
@@ -82,9 +86,13 @@ class Simulation:
         self.initial_position = np.concatenate([body.undeformed for body in bodies])
         method = scene.method
         given = None if scene.time.step == "auto" else scene.time.step
+        speeds = np.concatenate([np.linalg.norm(body.v, axis=1) for body in bodies])
+        rates = np.concatenate(
+            [np.linalg.norm(body.velocity_gradient, axis=(1, 2)) for body in bodies]
+        )
+        fastest, steepest = int(speeds.argmax()), int(rates.argmax())
         motion = Motion(
-            max(float(np.linalg.norm(body.v, axis=1).max()) for body in bodies),
-            max(float(np.linalg.norm(b.velocity_gradient, axis=(1, 2)).max()) for b in bodies),
+            float(speeds[fastest]), float(rates[steepest]), fastest=fastest, steepest=steepest
         )
         self.time_step = TimeStep(
             scene, given, scene.time.safety, self._half_width(bodies), motion, scene.time.enforce
@@ -121,6 +129,8 @@ class Simulation:
         self.dt = self._fitting(self.time_step.begin(), self.time)
         self.first_dt = self.dt
         self.guard_steps, self.guarded = GUARD_STEPS, 0
+        self.slivers, self.sliver_look = 0, 0  # their count, and the step of the next look
+        self.parting = 0  # most particles at a time
         self.is_started = False  # recorders have seen the start
         self.is_amid_step = False
         self.stop_asked = False  # `advance` returns after the step or launch that it is at
@@ -199,6 +209,8 @@ class Simulation:
         take = self._take_whole_steps if self.solver.is_whole else self._take_step
         before, landing = self.step_count, False
         while not landing and self.step_count - before < most:
+            if self.step_count >= self.sliver_look and self.time_step.fears_slivers:
+                self._look_for_slivers()
             landing = take(most - (self.step_count - before))
             self._settle(landing)
             if self.stop_asked:
@@ -259,6 +271,7 @@ class Simulation:
         bad = self.solver.particles.bad[None]
         if bad < self.ranges[-1]:
             raise gone_wrong(self, bad)
+        self.parting = max(self.parting, self.solver.particles.parting[None])
 
     @property
     def _lands(self) -> bool:
@@ -299,9 +312,16 @@ class Simulation:
             self._fitting(clock.last, clock.time)  # says what is wrong with it
         return landing
 
+    def _look_for_slivers(self):
+        """Before a step, which clears what this leaves at the nodes."""
+        self.slivers += self.solver.slivers(self.dt)
+        self.sliver_look = self.step_count + slivers.EVERY_STEPS
+
     def _note_steps(self, time, lengths, bounds):
         self.time, self.step_count, self.last_dt = time, self.step_count + len(lengths), lengths[-1]
         self.time_step.note(lengths, bounds)
+        if self.time_step.is_nameless:
+            self.time_step.name(self.solver.named_motion(self.last_dt))
         if self.time_step.is_look_due:
             self._look()
 

@@ -10,12 +10,14 @@ import taichi as ti
 from .grid import Grid
 from .kernels.body_force import push
 from .kernels.clear import clear
+from .kernels.fastest import fastest
 from .kernels.g2p import g2p
 from .kernels.ghosts import fill_ghosts, fold_ghosts
 from .kernels.grid_update import grid_update
 from .kernels.outside import bring_in
 from .kernels.p2g import p2g
 from .kernels.residual import take_residual
+from .kernels.slivers import slivers
 from .kernels.sort import sort, take_up
 from .kernels.start_moments import start_moments
 from .kernels.stiffness import stiffest
@@ -198,6 +200,22 @@ class Solver:
             group.material: Stiffness(*stiffest(self.particles, group, self.grid))
             for group in self.particles.groups
         }
+
+    def named_motion(self, dt) -> Motion:
+        """Of the step of dt [s] that has just been taken, with the particles that are fastest."""
+        speed, fastest_one, rate, steepest_one = fastest(
+            self.particles, self.grid, self.basis, self.transfer, dt
+        )
+        return Motion(
+            sqrt(speed), sqrt(rate), self.grid.compression[None], fastest_one, steepest_one
+        )
+
+    def slivers(self, dt) -> int:
+        """How many nodes are too light for the next step, of dt [s], under USL."""
+        self.sort_if_due()
+        return slivers(
+            self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity, dt
+        )
 
     def map_motion(self, time, dt) -> Iterator[str]:
         """Particles to nodes, the motion of the nodes, and back; a pause where nodes are done."""

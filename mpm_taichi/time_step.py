@@ -41,13 +41,23 @@ BOUNDS = ("given", "growth", "acoustic", "constant", "travel", "deformation")
 on the motion."""
 
 
+OF_MOTION = ("travel", "deformation")
+
+NAMED = 0.9
+"""A limit of motion is told anew, and its particle looked for, when it is shorter by this factor: a
+few looks in a run."""
+
+
 class Motion(NamedTuple):
     """The largest speed |sum_i w_i v_i| [m/s], |grad v| (Frobenius norm) [1/s] and compression
-    - div v [1/s] of all particles; the latter is never below 0."""
+    - div v [1/s] of all particles; the latter is never below 0.  Whose the first two are: places in
+    the scene, None where nobody has asked."""
 
     speed: float = 0.0
     rate: float = 0.0
     compression: float = 0.0
+    fastest: int | None = None
+    steepest: int | None = None
 
 
 class Stiffness(NamedTuple):
@@ -112,10 +122,10 @@ class TimeStep:
     where a limit asks for it, unless `enforce` is false.
 
     `counts` tells how many steps each limit has bound, or the given length, or GROWTH; `binders`
-    the last limit of each name that did.  `motion` is that of the last step, `growth_left`, as a
-    logarithm, what moduli may grow before they have to be seen; half_width [cells]: of the
-    smallest particle, which a basis may take as extended.  `reduction` shortens all steps, after an
-    attempt that has failed."""
+    the last limit of each name that did, of those of motion the shortest.  `motion` is that of the
+    last step, `growth_left`, as a logarithm, what moduli may grow before they have to be seen;
+    half_width [cells]: of the smallest particle, which a basis may take as extended.  `reduction`
+    shortens all steps, after an attempt that has failed."""
 
     def __init__(self, scene, given, safety, half_width=0.25, motion=None, enforce=True):
         self.scene, self.given, self.safety = scene, given, safety
@@ -187,6 +197,11 @@ class TimeStep:
         """Whether the stiffness may have changed since it was seen."""
         return not self.growth_left > 0
 
+    @property
+    def fears_slivers(self) -> bool:
+        """Whether a node may be so light that no rule here bounds the step (kernels/slivers.py)."""
+        return self.isolated is None and self.scene.method.stress_update == "usl"
+
     def limits(self, motion: Motion) -> list[Limit]:
         """All limits in a motion, shortest first."""
         dx, gravity, found = self.scene.cell_size, self.scene.gravity_vector, []
@@ -204,9 +219,11 @@ class TimeStep:
             if material.shear_viscosity() > 0:
                 add("viscosity", 0.25 * rho * dx**2 / material.shear_viscosity(), name)
         if motion.speed > 0:
-            add("travel", 0.5 * dx / motion.speed, f"speed {motion.speed:.3g} m/s")
+            cause = f"speed {motion.speed:.3g} m/s"
+            add("travel", 0.5 * dx / motion.speed, cause, motion.fastest)
         if motion.rate > 0:
-            add("deformation", 0.2 / motion.rate, f"velocity gradient {motion.rate:.3g} 1/s")
+            cause = f"velocity gradient {motion.rate:.3g} 1/s"
+            add("deformation", 0.2 / motion.rate, cause, motion.steepest)
         if any(gravity):
             add("gravity", sqrt(0.5 * dx / hypot(*gravity)), "gravity")
         return sorted(found, key=lambda limit: limit.seconds)
@@ -236,15 +253,29 @@ class TimeStep:
 
     def _binding(self, code):
         """The name of what binds, and whom that is about."""
-        name, limit = BOUNDS[code], None
-        if name in ("acoustic", "constant"):
-            limit = self.at_rest[name]
-        elif name in ("travel", "deformation"):
+        name = BOUNDS[code]
+        if name in OF_MOTION:
             limit = next(each for each in self.limits(self.motion) if each.name == name)
-        if limit is None:
+            if name in self.binders and limit.seconds > NAMED * self.binders[name].seconds:
+                return name
+        elif name in ("acoustic", "constant"):
+            limit = self.at_rest[name]
+        else:
             return name
         self.binders[limit.name] = limit
         return limit.name
+
+    @property
+    def is_nameless(self) -> bool:
+        """Whether a limit of motion has bound a step, and nobody knows of which particle."""
+        found = (self.binders.get(name) for name in OF_MOTION)
+        return any(limit is not None and limit.particle is None for limit in found)
+
+    def name(self, motion: Motion) -> None:
+        """Say whose the motion of the last step is, where a limit of it has bound."""
+        for limit in self.limits(motion):
+            if limit.name in self.binders and self.binders[limit.name].particle is None:
+                self.binders[limit.name] = limit
 
     def is_too_long(self, limit: Limit) -> bool:
         """Whether the given step is longer than a limit, by more than it was rounded."""
@@ -321,5 +352,6 @@ class TimeStep:
             lines.append(
                 f"the {self.scene.method.basis} basis has no limit above zero for a lone particle: "
                 "auto takes that of a filled body"
+                + (", and nodes too light for the step are counted" if self.fears_slivers else "")
             )
         return lines

@@ -100,6 +100,12 @@ def _when(simulation, particle):
 
 def _advice(simulation):
     limit, longest = simulation.limit, simulation.time_step.longest
+    if simulation.slivers:
+        return (
+            f"{simulation.slivers} times a node was too light for the step, which lets the "
+            f"{simulation.scene.method.basis} basis with stress_update: usl blow up: take basis: "
+            "quadratic, or stress_update: musl."
+        )
     return (
         f"A shorter time.step may help: steps were up to {longest:.3g} s, the {limit.name} limit "
         f"at the start is {limit.seconds:.3g} s ({limit.cause})."

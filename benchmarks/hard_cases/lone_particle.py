@@ -21,7 +21,8 @@ from mpm_taichi.scene import Method
 from .case import Case, Draw, Figure, Found
 from .scenes import body, clamps, simulate, solid
 
-SPACING, SIDE = 8, 8  # cells from one to the next; particles along an axis
+SPACING = 8  # cells from one to the next
+SIDE = {2: 8, 3: 4}  # particles along an axis
 STRAIN = 1e-5
 """The bounds are those of the linear motion, which 0.98 of the limit amplifies by 25 times what the
 stiffness changes: at 1e-3 a neo-Hookean particle of MLS reached 5.09 instead of 5.03."""
@@ -55,7 +56,8 @@ def worst_place(scheme) -> float:
 def measure(scheme, draw: Draw) -> Found:
     """64 particles, half of them at the worst place, for nu = 0.3 and 0.499."""
     figures, counts = [], {}
-    places = draw.offsets(SIDE**2, 2)
+    dim = draw.dimension
+    places = draw.offsets(SIDE[dim] ** dim, dim)
     for nu in (0.3, 0.499):
         found, counts = of_material(scheme, places.copy(), nu)
         figures += [f._replace(name=f"{f.name} (nu {nu:g})") for f in found]
@@ -63,9 +65,9 @@ def measure(scheme, draw: Draw) -> Found:
 
 
 def of_material(scheme, places, nu):
-    material = solid(nu)
+    material, dim = solid(nu), places.shape[1]
     lam, mu = lame(material)
-    modulus = 2 * lam + 2 * mu
+    modulus = dim * lam + 2 * mu
     automatic = alone(scheme, places, material)
     if scheme.basis == "linear":
         told = any("no limit above zero" in line for line in automatic.time_step.describe(1.0))
@@ -96,29 +98,32 @@ def lame(material) -> tuple[float, float]:
 
 def alone(scheme, places, material, dt=None):
     """Each compressed by STRAIN along all axes, at its place in a cell."""
-    h, bodies = 0.5, []
+    h, bodies, dim = 0.5, [], places.shape[1]
+    rows = [SIDE[dim]] * dim
     for k, place in enumerate(places):
-        low = SPACING * np.array(divmod(k, SIDE)) + SPACING // 2
+        low = SPACING * np.array(np.unravel_index(k, rows)) + SPACING // 2
         moved = [
             f"{at - h / 2!r} - {STRAIN} * ({axis} - {x + h / 2!r})"
-            for at, axis, x in zip(place.tolist(), "XY", low.tolist(), strict=True)
+            for at, axis, x in zip(place.tolist(), "XYZ"[:dim], low.tolist(), strict=True)
         ]
         bodies.append(body(k, low, low + h, displacement=moved))
     steps = {} if dt is None else {"step": float(dt), "enforce": False}
     end = STEPS * (dt or 0.1)
     return simulate(
-        scheme, [SPACING * SIDE] * 2, bodies, material, end, time=steps, output={"every": end / 200}
-    )
+        scheme, [SPACING * n for n in rows], bodies, material, end, time=steps,
+        output={"every": end / 200},
+    )  # fmt: skip
 
 
 def strains(simulation):
     """|F - I| of each particle, over the starting one."""
-    H = simulation.snapshot.deformation_gradient - np.eye(2)
-    return np.linalg.norm(H, axis=(1, 2)) / (STRAIN * np.sqrt(2))
+    F = simulation.snapshot.deformation_gradient
+    dim = F.shape[1]
+    return np.linalg.norm(F - np.eye(dim), axis=(1, 2)) / (STRAIN * np.sqrt(dim))
 
 
 CASE = Case(
     "H7", "Lone particle", measure,
     schemes("linear: flip; gimp: flip; quadratic: pic, flip, apic, mls; cubic: flip, apic, mls"),
-    schemes("linear: flip; quadratic: flip, mls"),
+    schemes("linear: flip; quadratic: flip, mls"), dimensions=(2, 3),
 )  # fmt: skip

@@ -12,22 +12,23 @@ from mpm_taichi.scene import Method
 from .case import Case, Draw, Figure, Found
 from .scenes import body, clamps, simulate, solid, vector
 
-EDGE, PER_CELL, CELLS, STEPS = 4, 2, 12, 10
+EDGE, PER_CELL, STEPS = {2: 4, 3: 3}, 2, 10
 
 
 def measure(scheme, draw: Draw) -> Found:
-    shift = draw.offsets(1, 2)[0]
-    low = np.indices([EDGE * PER_CELL] * 2).reshape(2, -1).T / PER_CELL + CELLS // 3
-    h = 1 / PER_CELL
-    v = draw.rng.normal(size=(len(low), 2))
-    null = null_vectors(low + h / 2 + shift, scheme)
+    dim = draw.dimension
+    shift, edge = draw.offsets(1, dim)[0], EDGE[dim]
+    low = np.indices([edge * PER_CELL] * dim).reshape(dim, -1).T / PER_CELL + edge
+    h, cells = 1 / PER_CELL, 3 * edge
+    v = draw.rng.normal(size=(len(low), dim))
+    null = null_vectors(low + h / 2 + shift, cells, scheme)
     v = null @ (null.T @ v)
     bodies = [
         body(k, x, x + h, PER_CELL, displacement=vector(shift), velocity=vector(w))
         for k, (x, w) in enumerate(zip(low, v, strict=True))
     ]
     time = {"step": 1e-3}
-    simulation = simulate(scheme, [CELLS] * 2, bodies, solid(), 1.0, time=time)
+    simulation = simulate(scheme, [cells] * dim, bodies, solid(), 1.0, time=time)
     start = (simulation.snapshot.velocity**2).sum()
     steps = 1 if scheme.transfer in ("pic", "apic", "mls") else STEPS
     for _ in range(steps):
@@ -42,18 +43,18 @@ def measure(scheme, draw: Draw) -> Found:
     return Found([figure], clamps(simulation))
 
 
-def null_vectors(x, scheme) -> np.ndarray:
+def null_vectors(x, cells, scheme) -> np.ndarray:
     """[particles, n]: v with sum_p w_ip v_p = 0 for all nodes i, the particles having one mass."""
     twin = getattr(bases, Method.model_validate(scheme.method).basis_class.__name__)
-    one = []
-    for axis in range(2):
+    P2G = np.ones((1, len(x)))
+    for axis in range(x.shape[1]):
         first = twin.first(x[:, axis])
         w = twin.weights(x[:, axis] - first, 0.5 / PER_CELL)
-        rows = np.zeros((CELLS + 4, len(x)))
+        rows = np.zeros((cells + 4, len(x)))
         for k, weight in enumerate(w):
             rows[first.astype(int) + k, np.arange(len(x))] += weight
-        one.append(rows)
-    P2G = (one[0][:, None] * one[1][None]).reshape(-1, len(x))
+        P2G = (P2G[:, None] * rows[None]).reshape(-1, len(x))
+    P2G = P2G[P2G.any(axis=1)]
     _, s, V = np.linalg.svd(P2G)
     return V[(s > 1e-12 * s[0]).sum() :].T
 
@@ -64,5 +65,5 @@ CASE = Case(
         "linear: pic, flip, flip 0.99; gimp: flip, apic",
         "quadratic: pic, flip, flip 0.99, apic, mls; cubic: flip, mls",
     ),
-    schemes("quadratic: flip 0.99, mls"), precisions=("f64",),
+    schemes("quadratic: flip 0.99, mls"), precisions=("f64",), dimensions=(2, 3),
 )  # fmt: skip

@@ -25,6 +25,23 @@ def body(name, low, high, per_cell: int = 2, **keys) -> dict[str, Any]:
     return made | keys
 
 
+SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+
+
+def strip(length: int, axis: int, dim: int, **walls: str) -> tuple[list[int], dict[str, Any]]:
+    """Cells and `domain` of a strip one cell wide that closes on itself across `axis`: what is the
+    same all across it moves as in 1D."""
+    cells = [1] * dim
+    cells[axis] = length
+    across = (side for other in range(dim) if other != axis for side in SIDES[other])
+    return cells, {"walls": dict.fromkeys(across, "periodic") | walls}
+
+
+def along(axis: int, dim: int, value: Any, other: float = 0.0) -> list[Any]:
+    """A vector that has `value` along one axis and `other` along the rest."""
+    return [value if d == axis else other for d in range(dim)]
+
+
 def vector(values: Iterable[Any]) -> list[str]:
     """Numbers or formulas as a scene takes them."""
     return [value if isinstance(value, str) else repr(float(value)) for value in values]
@@ -49,7 +66,8 @@ def simulate(scheme: Scheme, cells, bodies, material, end, **sections) -> Simula
 def clamps(simulation: Simulation) -> dict[str, int]:
     """What was clamped, cut off or taken away, and how often."""
     found = simulation.warnings()
-    return {words: count for words, count in found.items() if not words.startswith("steps ")}
+    told = ("steps ", "nodes too light ", "particles stretched so far ")
+    return {words: count for words, count in found.items() if not words.startswith(told)}
 
 
 def by_body(simulation: Simulation, values: np.ndarray) -> np.ndarray:

@@ -10,6 +10,14 @@ from ..stages import stage
 HUGE = 1e15
 """An entry of H = F - I beyond this is no deformation."""
 
+PARTING = 0.6
+"""Of the distance at which two particles share no node: from there on a bar may bear less than its
+law says (hard_cases.md, H12)."""
+
+SPARSE, STRETCHED = 0.8, 1.1
+"""Cells: a lattice so stretched that neighbors are further apart is on its way to one particle per
+cell, where tension makes it unstable whatever the basis (benchmarks/lattice_stability.py)."""
+
 
 @ti.func
 def size(x, bits: Template):
@@ -35,23 +43,38 @@ def is_bad(p, particles: Template, law: Template, largest, huge, bits: Template)
     return bad
 
 
+@ti.func
+def is_parting(p, particles: Template, limit):
+    """Whether neighbors, V0^(1/dim) apart when undeformed, are by F_ij further apart than `limit`
+    [m] along some axis."""
+    H, most = particles.H[p], 0.0
+    for i, j in ti.static(ti.ndrange(particles.dim, particles.dim)):
+        most = ti.max(most, ti.abs(H[i, j] + ti.static(float(i == j))))
+    dim = ti.static(particles.dim)
+    return most > STRETCHED and particles.V0[p] * most**dim > limit**dim
+
+
 @ti.kernel
 def look(
     particles: Template, law: Template, begin: int, end: int, largest: float, huge: float,
-    bits: Template,
+    limit: float, bits: Template,
 ):  # fmt: skip
     for p in range(begin, end):
         if is_bad(p, particles, law, largest, huge, bits):
             ti.atomic_min(particles.bad[None], particles.id[p])
+        if is_parting(p, particles, limit):
+            ti.atomic_add(particles.parting[None], 1)
 
 
 @stage
 def guard(particles):
     """On return `particles.bad` is the least id of a particle with a number that is none, a
     deformation beyond `HUGE`, or, under a law that is not made for it, det F <= 0; or the number of
-    particles."""
-    particles.bad[None] = particles.count
+    particles.  `particles.parting` counts those that what is stored elastically has stretched so
+    far that they may soon lose their neighbors (numerics.md, chapter 3, row 4)."""
+    particles.bad[None], particles.parting[None] = particles.count, 0
+    limit = min(PARTING * particles.reach, SPARSE) * particles.dx
     bits = ti.u64 if particles.dtype == np.float64 else ti.u32
     largest = float(np.finfo(particles.dtype).max)
     for group in particles.groups:
-        look(particles, group.law, group.begin, group.end, largest, HUGE, bits)
+        look(particles, group.law, group.begin, group.end, largest, HUGE, limit, bits)

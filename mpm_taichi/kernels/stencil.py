@@ -63,8 +63,14 @@ def first_node(x, grid: Template, basis: Template):
 @ti.func
 def weigh(p, particles: Template, grid: Template, basis: Template):
     """First node of the stencil of particle p, a = xi - that node, weights w, slopes dw [k, d]."""
-    base = first_node(particles.x[p], grid, basis)
-    a = grid_coordinate(particles.x[p], grid) - base
+    return weigh_at(particles.x[p], p, particles, grid, basis)
+
+
+@ti.func
+def weigh_at(x, p, particles: Template, grid: Template, basis: Template):
+    """As if the particle were at x."""
+    base = first_node(x, grid, basis)
+    a = grid_coordinate(x, grid) - base
     half = 0.0
     if ti.static(basis.extended):
         half = particles.half_width[p]

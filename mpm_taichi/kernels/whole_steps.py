@@ -171,7 +171,8 @@ def whole_steps(
     how far that was."""
     numbers = np.array([
         clock.time, clock.dt, clock.target, clock.after, clock.last, clock.drift,
-        clock.growth_left, 0, 0, 1, 1, *clock.motion,
+        clock.growth_left, 0, 0, 1, 1, clock.motion.speed, clock.motion.rate,
+        clock.motion.compression,
     ])  # fmt: skip
     lengths, bounds = np.zeros(most), np.zeros(most, np.int32)
     pace, seen = np.array(clock.pace, float), np.zeros((len(particles.groups), 4))

@@ -24,10 +24,12 @@ from mpm_taichi.kernels import (
 )  # fmt: skip
 from mpm_taichi.reference.kernels import clear as twin_clear
 from mpm_taichi.reference.kernels import evaluate as twin_evaluate
+from mpm_taichi.reference.kernels import fastest as twin_fastest
 from mpm_taichi.reference.kernels import g2p as twin_g2p
 from mpm_taichi.reference.kernels import ghosts as twin_ghosts
 from mpm_taichi.reference.kernels import grid_update as twin_grid_update
 from mpm_taichi.reference.kernels import p2g as twin_p2g
+from mpm_taichi.reference.kernels import slivers as twin_slivers
 from mpm_taichi.reference.kernels import stiffness as twin_stiffness
 from mpm_taichi.reference.kernels import sums as twin_sums
 from mpm_taichi.reference.kernels import update_stress as twin_update_stress
@@ -177,3 +179,55 @@ def test_body_forces_equal_the_twin(exact, rng, transfer):
     fast, twin = build(rng, 2, "QuadraticBSpline", transfer, body_force=force)
     three_steps(fast, twin, DT * (0.5 + rng.random(4)))
     assert_equal(fast, twin, "after three steps")
+
+
+@pytest.mark.parametrize(
+    ("basis", "transfer"),
+    [
+        ("QuadraticBSpline", "MLS"),
+        pytest.param("Linear", "FLIP", marks=pytest.mark.slow),
+        pytest.param("GIMP", "TPIC", marks=pytest.mark.slow),
+    ],
+)
+def test_the_fastest_are_named(exact, rng, basis, transfer):
+    """After a step: the largest speed and velocity gradient gathered once more equal those that the
+    step has found (but for the rounding of x - dt v, over a cell), and are of the particle that the
+    twin names."""
+    fast, twin = build(rng, 2, basis, transfer)
+    lengths = DT * (0.5 + rng.random(4))
+    three_steps(fast, twin, lengths)
+    motion = fast.named_motion(lengths[2])
+    speed, fastest, rate, steepest = twin_fastest.fastest(
+        twin.particles, twin.grid, twin.basis, twin.transfer, lengths[2]
+    )
+    assert (motion.fastest, motion.steepest) == (fastest, steepest)
+    assert motion.speed**2 == pytest.approx(speed, rel=1e-11)
+    assert motion.rate**2 == pytest.approx(rate, rel=1e-11)
+    assert motion.speed**2 == pytest.approx(fast.grid.speed_squared[None], rel=1e-11)
+    assert motion.rate**2 == pytest.approx(fast.grid.rate_squared[None], rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("transfer", "periodic"),
+    [
+        ("FLIP", (0, 1)),
+        pytest.param("FLIP", (), marks=pytest.mark.slow),
+        pytest.param("TPIC", (0,), marks=pytest.mark.slow),
+    ],
+)
+def test_light_nodes_equal_the_twin(exact, rng, transfer, periodic):
+    """As many nodes too light for a step as the twin finds, for steps from far below the limit of
+    the clouds' lightest node (none) to far above that of the heaviest (all)."""
+    fast, twin = build(rng, 2, "Linear", transfer, periodic=periodic, ends=periodic)
+    lengths = DT * (0.5 + rng.random(4))
+    three_steps(fast, twin, lengths)
+    counts = []
+    for dt in DX / 14.0 * np.geomspace(1e-3, 30, 12):  # the speed of sound is 10 to 16 m/s
+        theirs = twin_slivers.slivers(
+            twin.particles, twin.grid, twin.basis, twin.transfer, twin.walls, twin.gravity, dt
+        )
+        counts.append(fast.slivers(dt))
+        assert counts[-1] == theirs
+    assert counts == sorted(counts)
+    assert counts[0] == 0
+    assert counts[-1] == (twin.grid.m > 0).sum() > 20

@@ -208,3 +208,42 @@ def test_a_precision_that_a_device_lacks():
     """Metal has no f64: refused before anything starts, on any computer, with the way out."""
     with pytest.raises(InputError, match="no 64-bit floats: take --precision f32"):
         Simulation(scene(), device="metal", precision="f64")
+
+
+def test_the_fastest_particle_is_named():
+    """Automatic steps of two disks, of which the second flies at 8 m/s, seven times the speed of
+    sound: bound by the travel of one of its particles, at the start and later."""
+    simulation = Simulation(
+        scene("time.step=auto", "bodies[0].velocity=[1,0]", "bodies[1].velocity=[-8,0]")
+    )
+    (start,) = (each for each in simulation.limits_at_start if each.name == "travel")
+    simulation.advance(3)
+    assert set(simulation.time_step.binders) == {"travel"}
+    for limit in (start, simulation.time_step.binders["travel"]):
+        assert limit.particle is not None
+        assert simulation.body_of_particle[limit.particle] == 1
+        assert limit.seconds == pytest.approx(0.5 * 0.05 / 8, rel=0.02)
+
+
+def test_nodes_too_light_are_told():
+    """A disk moved so that its last particles are 1e-5 cells past nodes: with C = 0.023 the strain
+    there grows for a weight below C^2 / 2 = 2.7e-4 (linear FLIP, USL), which warnings tell with the
+    ways out; moved by a tenth of a cell less it has no such node."""
+    for shift, told in ((0.0125005, True), (0.0075, False)):
+        simulation = Simulation(scene(f"bodies[0].displacement=[{shift},{shift}]"))
+        simulation.step()
+        found = [words for words in simulation.warnings() if "too light" in words]
+        assert (len(found), simulation.slivers > 0) == (told, told)
+        assert all("basis: quadratic, or stress_update: musl" in words for words in found)
+
+
+def test_particles_that_lose_their_neighbors_are_told():
+    """Half a cell apart and stretched by 1.7 the particles of one disk are 0.85 cells apart, above
+    the 0.6 at which hat functions are warned of; by 1.1 they are not."""
+    for stretch, expected in ((0.7, 208), (0.1, 0)):
+        simulation = Simulation(scene(f"bodies[0].displacement=[{stretch}*X,0]"))
+        simulation.guard()
+        assert simulation.parting == expected
+        assert any("numerical fracture" in words for words in simulation.warnings()) == (
+            expected > 0
+        )

@@ -213,6 +213,9 @@ def test_an_automatic_step_is_explained(scene):
     )
     hats = step_of(scene(method="{basis: linear, transfer: {type: flip}}"))
     assert "no limit above zero for a lone particle" in hats.describe(0.003)[1]
+    assert hats.describe(0.003)[1].endswith("nodes too light for the step are counted")
+    musl = step_of(scene(method="{basis: linear, transfer: {type: flip}, stress_update: musl}"))
+    assert musl.describe(0.003)[1].endswith("auto takes that of a filled body")
 
 
 def test_the_stiffest_material_decides(scene, tmp_path):
@@ -246,3 +249,27 @@ def test_steps_taken_are_remembered(scene):
     assert (step.shortest, step.longest) == (0.1, 0.3)
     assert step.counts == {"isolated particle": 1, "travel": 2, "growth": 1}
     assert step.most_binding() == (Limit("travel", 0.5 * DX / 100, "speed 100 m/s"), 2)
+
+
+def test_a_limit_of_motion_names_its_particle(scene):
+    """It is asked for when the limit first binds, and again once it is a tenth shorter; the one
+    that is known stays in between."""
+    step, travel = step_of(scene()), BOUNDS.index("travel")
+    step.begin()
+
+    def fly(speed):
+        step.move(0.0, Motion(speed, 1.0))
+        step.note([0.1], [travel])
+
+    fly(100.0)
+    assert step.is_nameless
+    step.name(Motion(100.0, 1.0, fastest=7, steepest=8))
+    assert "deformation" not in step.binders
+    fly(105.0)
+    assert not step.is_nameless
+    assert step.binders["travel"] == Limit("travel", 0.5 * DX / 100, "speed 100 m/s", 7)
+    fly(120.0)
+    assert step.is_nameless
+    step.name(Motion(120.0, 1.0, fastest=9, steepest=8))
+    assert step.binders["travel"] == Limit("travel", 0.5 * DX / 120, "speed 120 m/s", 9)
+    assert step.counts == {"isolated particle": 1, "travel": 2}

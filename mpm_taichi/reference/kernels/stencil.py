@@ -31,8 +31,13 @@ def first_node(x, grid, basis):
 
 def weigh(p, particles, grid, basis):
     """First node of the stencil of particle p, a = xi - that node, weights w, slopes dw [k, d]."""
-    base = first_node(particles.x[p], grid, basis)
-    a = particles.x[p] / grid.dx + grid.ghost - base
+    return weigh_at(particles.x[p], p, particles, grid, basis)
+
+
+def weigh_at(x, p, particles, grid, basis):
+    """As if the particle were at x."""
+    base = first_node(x, grid, basis)
+    a = x / grid.dx + grid.ghost - base
     half = particles.half_width[p]
     w, dw = basis.weights(a, half), basis.slopes(a, half)
     if basis.modified:
@@ -48,7 +53,12 @@ def moment(w, a):
 
 def stencil(p, particles, grid, basis):
     """For each node i of the stencil of particle p: i, x_i - x [m], w_i, grad w_i [1/m]."""
-    base, a, w, dw = weigh(p, particles, grid, basis)
+    yield from stencil_at(particles.x[p], p, particles, grid, basis)
+
+
+def stencil_at(x, p, particles, grid, basis):
+    """As if the particle were at x."""
+    base, a, w, dw = weigh_at(x, p, particles, grid, basis)
     axes = range(grid.dim)
     for o in product(range(basis.support), repeat=grid.dim):
         weight = np.prod([w[o[d], d] for d in axes])
