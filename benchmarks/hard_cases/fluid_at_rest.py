@@ -5,7 +5,8 @@ The continuum is in equilibrium; particles out of place press on nodes unevenly.
 see and particles keep, or the other way round, can feed on the pressure (ringing, Brackbill 1988,
 J. Comput. Phys. 75): FLIP heats up to a tenth of the speed of sound, which hard_cases.md expects
 of hat functions and leaves open for the others.  MLS and APIC settle: after a transient, a third of
-the time, the logarithm of the kinetic energy has no rising trend, and |v| <= 0.05 c (1 - J)."""
+the time, the logarithm of the kinetic energy has no rising trend, and |v| <= 0.05 c (1 - J).  The
+fluid carries any tension here: what is cut off would be a clamp, and it calms."""
 
 from typing import Any
 
@@ -17,10 +18,10 @@ from .scenes import body, clamps, simulate
 from .trend import CHANCE, trend
 
 EDGE, PER_CELL, J, JITTER = 8, 2, 0.9, 0.4
-STEPS = {True: 3000, False: 100_000}
+STEPS = {True: 10_000, False: 100_000}
 """Of 0.3 times the cell over the speed of sound at rest; with --quick, and without."""
 
-FLUID = {"type": "fluid", "density": 1, "bulk_modulus": 1}
+FLUID = {"type": "fluid", "density": 1, "bulk_modulus": 1, "tension": 1}
 
 
 def measure(scheme, draw: Draw) -> Found:
@@ -53,10 +54,9 @@ def press(simulation, draw: Draw) -> None:
     simulation.time_step.strain_left = 0.0  # so that its stiffness is seen
 
 
-FLIP = "|v| / c"
 CASE = Case(
     "H21", "Fluid at rest", measure,
     schemes("linear: flip; gimp: flip, apic; quadratic: flip, apic, mls; cubic: flip, apic, mls"),
-    schemes("linear: flip; quadratic: mls"), fails={"linear flip": FLIP},
+    schemes("linear: flip; quadratic: mls"), fails={"linear flip": "|v| / c"},
     reported=("gimp flip", "gimp apic", "quadratic flip", "cubic flip"),
 )  # fmt: skip
