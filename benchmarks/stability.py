@@ -2,6 +2,7 @@
 
     python benchmarks/stability.py [CASES ...] [--precision f32 f64] [--dim 2 3]
         [--scheme "quadratic mls" ...] [--quick] [--seed N] [--json FILE] [--picture FILE]
+        [--debug] [--no-fast-math]
 
 Cases: benchmarks/hard_cases/, each with its exact answer and the source of its bounds.  Of each row
 the status: `pass`, `fail`, `expected fail`, `passes though it should fail`, or `reported` (no
@@ -9,12 +10,17 @@ bound is claimed); each figure with its bound, a mark ! where it breaks it; coun
 clamped or cut off.  Offsets and orientations are drawn, and printed; the worst counts.  Exit code 1
 if a row fails, or passes though it should fail.
 
+With --debug Taichi checks the bounds of each access to a field and, where one is outside, ends the
+program with the line of the kernel; with --no-fast-math it computes as written.  It compiles anew
+for either and keeps what it compiled apart, in the same cache.
+
 JSON: machine, versions, date, seconds, rows: {case, title, scheme, basis, transfer, stress_update,
 precision, dimension, status, figures [{name, value, bound, at_least, holds}], clamps {words:
 count}, stopped (what the run said, or null), drawn, seconds (with compiling)}."""
 
 import argparse
 import json
+import os
 import random
 import sys
 import time
@@ -100,6 +106,8 @@ def parse(arguments=None):
     parser.add_argument("--seed", type=int, help="of what is drawn; default: drawn too")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers, row by row")
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw cases x schemes")
+    parser.add_argument("--debug", action="store_true", help="check the bounds of all accesses")
+    parser.add_argument("--no-fast-math", action="store_true", help="compute as written")
     options = parser.parse_args(arguments)
     unknown = [name for name in options.cases if name not in CASES]
     if unknown:
@@ -109,6 +117,10 @@ def parse(arguments=None):
 
 def main(arguments=None) -> int:
     options, began = parse(arguments), time.time()
+    if options.debug:  # what Taichi reads each time that it starts
+        os.environ["TI_DEBUG"] = "1"
+    if options.no_fast_math:
+        os.environ["TI_FAST_MATH"] = "0"
     seed = random.SystemRandom().randrange(2**31) if options.seed is None else options.seed
     rows = []
     for case, scheme, dimension in plan(options):

@@ -1,0 +1,62 @@
+"""H23: a piston at Mach 10.  (The shock tube of Sod is tests/scenes/test_sod.py.)
+
+Gas at rest, rho_1 = 1, gamma = 1.4, speed of sound 1, and a piston that drives a shock of Mach
+M = 10 into it; seen from the piston: gas that is thrown at a wall.  The jumps of Rankine and
+Hugoniot (Toro 2009, section 3.1.3) give its speed and the state behind the shock,
+
+    u = 2 / (gamma + 1) (M - 1 / M),   rho_2 = (gamma + 1) M^2 / ((gamma - 1) M^2 + 2) rho_1,
+    p_2 = (1 + 2 gamma / (gamma + 1) (M^2 - 1)) p_1,
+
+and the shock leaves the wall at M - u.  Density, pressure and J stay positive (hard_cases.md, H23);
+the mean error by volume of the density, up to twice the way of the shock, stays below 0.05 of
+rho_2, the bound that the document gives for the tube."""
+
+from typing import Any
+
+import numpy as np
+from experiments import schemes
+
+from .case import Case, Draw, Figure, Found
+from .scenes import body, clamps, simulate
+
+MACH, GAMMA, LENGTH, END = 10, 1.4, 370, 28.6
+TINY = float(np.finfo(np.float32).tiny)
+SPEED = 2 / (GAMMA + 1) * (MACH - 1 / MACH)
+DENSITY = (GAMMA + 1) * MACH**2 / ((GAMMA - 1) * MACH**2 + 2)
+PRESSURE = (1 + 2 * GAMMA / (GAMMA + 1) * (MACH**2 - 1)) / GAMMA
+
+
+def measure(scheme, draw: Draw) -> Found:
+    turn = draw.orientation(2)
+    axis = int(np.abs(turn[:, 0]).argmax())
+    forth = turn[axis, 0]
+    cells, v = [1, 1], [0.0, 0.0]
+    cells[axis], v[axis] = LENGTH, float(-forth * SPEED)
+    sides = (("left", "right"), ("bottom", "top"))
+    walls = dict.fromkeys(sides[1 - axis], "periodic") | {
+        sides[axis][0 if forth > 0 else 1]: "slip"
+    }
+    gas = {"type": "gas", "density": 1, "pressure": 1 / GAMMA, "heat_ratio": GAMMA}
+    sections: dict[str, Any] = {"domain": {"walls": walls}}
+    simulation = simulate(
+        scheme, cells, [body("gas", [0, 0], cells, 3, velocity=v)], gas, END, **sections
+    )
+    least = dict.fromkeys(("density", "pressure", "volume_ratio"), np.inf)
+    for now in simulation.frames():
+        for name in least:
+            least[name] = min(least[name], getattr(now.snapshot, name).min())
+    s = simulation.snapshot
+    x = s.position[:, axis] if forth > 0 else LENGTH - s.position[:, axis]
+    shock, V = (MACH - SPEED) * END, s.initial_volume * s.volume_ratio
+    near = x < 2 * shock
+    exact = np.where(x < shock, DENSITY, 1.0)
+    off = V[near] @ np.abs(s.density - exact)[near] / V[near].sum() / DENSITY
+    figures = [Figure(f"least {name}", value, TINY, at_least=True) for name, value in least.items()]
+    return Found([*figures, Figure("L1(rho) / rho_2", off, 0.05)], clamps(simulation))
+
+
+CASE = Case(
+    "H23", "Gas shock", measure,
+    schemes("linear: flip musl; gimp: flip; quadratic: pic, flip, apic, mls; cubic: flip, mls"),
+    schemes("quadratic: mls"),
+)  # fmt: skip
