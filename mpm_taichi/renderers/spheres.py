@@ -19,7 +19,18 @@ import numpy as np
 import taichi as ti
 
 from ..runtime import Template
-from .rasterizer import BAND, Pixels, Scalars, Single, Vectors, flat, is_seen, pixel, row_pixel, single
+from .rasterizer import (
+    BAND,
+    Pixels,
+    Scalars,
+    Single,
+    Vectors,
+    flat,
+    is_seen,
+    pixel,
+    row_pixel,
+    single,
+)
 
 if TYPE_CHECKING:
     Layer = Any
@@ -46,6 +57,10 @@ REACHES = (2.5, 8.0)
 """How far, in median radii of the spheres, but at least and at most so many pixels:"""
 
 LEAST, MOST = (3, 8), (30, 90)
+
+HIDDEN = 0.2
+"""Part of the sky by the sum of sines over PAIRS: none is left in a pit whose rim stands at 40
+degrees all around."""
 
 DARKEST = 0.7
 """Part of its light that a pixel loses that sees no sky."""
@@ -158,7 +173,7 @@ def blend_spheres(
                             high = slope(depth, width, height, i, j, here, u * far, v * far)
                             both += ti.max(low, high)
                         hidden += ti.max(both, 0)
-                hidden = ti.min(hidden * ti.f32(0.2), 1)
+                hidden = ti.min(hidden * ti.f32(HIDDEN), 1)
                 behind = (top + j) * image_width + left + i
                 pixels[behind] = light * (1 - ti.f32(DARKEST) * hidden) + T * pixels[behind]
 
