@@ -62,7 +62,7 @@ def time_of(frame: Frame, size: int, repeats: int) -> list[float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description="how long a picture takes")
     parser.add_argument("--repeats", type=int, default=20)
     options = parser.parse_args()
     print("dim  particles  pixels       threads  draw: CPU  wall  write: CPU  wall   CPU of both")

@@ -23,23 +23,21 @@ EVERY = 10  # steps between two rows of the history
 
 def scene(dim: int, steps: int, frames: int) -> Scene:
     """A block of rubber that falls on the floor; 12 steps of it are 0.1 of its vibration."""
-    size, cells, spacing = ((2, 1), (128, 64), 1 / 128) if dim == 2 else (
-        (2, 1, 1), (32, 16, 16), 1 / 32
-    )  # fmt: skip
-    block = (
-        Box(min=(0.3, 0.02), max=(1.3, 0.62)) if dim == 2 else
-        Box(min=(0.3, 0.05, 0.1), max=(1.0, 0.75, 0.75))
-    )  # fmt: skip
+    size, cells, spacing = [2.0, 1.0, 1.0], [128, 64], 1 / 128
+    block = Box(min=[0.3, 0.02], max=[1.3, 0.62])
+    if dim == 3:
+        cells, spacing = [32, 16, 16], 1 / 32
+        block = Box(min=[0.3, 0.05, 0.1], max=[1.0, 0.75, 0.75])
+    lattice = Lattice(spacing=spacing)
     return Scene(
         version=1,
-        domain=Domain(size=size, cells=cells, walls="slip"),
+        domain=Domain(size=size[:dim], cells=cells, walls="slip"),
         time=Time(end=STEP * steps * frames, step=STEP),
-        gravity=(0, -9.81, 0)[:dim],
+        gravity=[0.0, -9.81, 0.0][:dim],
         materials={"rubber": NeoHookean(density=1000, youngs_modulus=1e5, poissons_ratio=0.3)},
-        bodies=[Body(name="block", material="rubber", shape=block, particles=Lattice(
-            spacing=spacing))],
+        bodies=[Body(name="block", material="rubber", shape=block, particles=lattice)],
         output=Output(every=STEP * steps),
-    )  # fmt: skip
+    )
 
 
 def per_output(simulation, kinds) -> dict[str, float]:
@@ -61,7 +59,7 @@ def per_output(simulation, kinds) -> dict[str, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description="the part of a run that recording takes")
     parser.add_argument("--frames", type=int, default=300)
     parser.add_argument("--steps", type=int, nargs="+", default=[12, 60])
     parser.add_argument("--threads", type=int, default=1)

@@ -40,7 +40,7 @@ def record_particles(
         mises = 3.0 * shear
         for d in ti.static(range(3)):
             mises += 0.5 * (normal[d] - normal[(d + 1) % 3]) ** 2
-        scalars[0, id] = ti.cast(-normal.sum() / (3.0 * J), ti.f32)
+        scalars[0, id] = ti.cast(-(normal[0] + normal[1] + normal[2]) / (3.0 * J), ti.f32)
         scalars[1, id] = ti.cast(ti.sqrt(mises) / abs(J), ti.f32)
         scalars[2, id] = ti.cast(m / (particles.V0[p] * J), ti.f32)
         if ti.static(plastic):
