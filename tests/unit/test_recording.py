@@ -1,14 +1,17 @@
 """Particles of each output: recorded, foreseen on the disk, and read back or refused in words."""
 
+import html
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mpm_taichi import Simulation, cli, disk_space, load_scene
+from mpm_taichi import Simulation, cli, disk_space, load_scene, notebook
 from mpm_taichi.errors import InputError
 from mpm_taichi.history_table import read_history
+from mpm_taichi.player import player
 from mpm_taichi.recorders import Snapshots
 from mpm_taichi.recorders.snapshots import has_plastic_strain, wants_snapshots
 from mpm_taichi.recording import Recording
@@ -70,6 +73,27 @@ def test_a_recording_is_what_the_run_was(moments):
     assert recording[-1].step == recording[4].step
     with pytest.raises(IndexError):
         recording[5]
+
+
+def test_a_notebook_plays_it(moments, monkeypatch):
+    """`_repr_html_` is the page of `export --html`, in a frame of its own that may run scripts and
+    nothing else; of a recording that is too long every few frames, and the words that say so; of
+    one with too many particles the words alone."""
+    folder, _ = moments
+    recording = Recording(folder)
+    shown = recording._repr_html_()
+    frame = re.fullmatch(r'<iframe sandbox="allow-scripts" [^<>]*srcdoc="([^"]*)"></iframe>', shown)
+    assert frame and html.unescape(frame[1]) == player(recording).html
+    monkeypatch.setattr(notebook, "MOST_POINTS", 416 * 2)
+    shown = recording._repr_html_()
+    assert html.escape(player(recording, 3).html) in shown
+    assert (
+        f"1 of 3 frames is shown, of 5 in all; the others: python -m mpm_taichi export {folder}"
+        in (shown)
+    )
+    monkeypatch.setattr(notebook, "MOST_POINTS", 415)
+    shown = recording._repr_html_()
+    assert "416 particles are too many for a notebook" in shown and "iframe" not in shown
 
 
 def test_the_disk_space_is_foreseen(moments):
