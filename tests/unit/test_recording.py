@@ -87,10 +87,8 @@ def test_a_notebook_plays_it(moments, monkeypatch):
     monkeypatch.setattr(notebook, "MOST_POINTS", 416 * 2)
     shown = recording._repr_html_()
     assert html.escape(player(recording, 3).html) in shown
-    assert (
-        f"1 of 3 frames is shown, of 5 in all; the others: python -m mpm_taichi export {folder}"
-        in (shown)
-    )
+    said = "1 of 3 frames is shown, of 5 in all; the others: python -m mpm_taichi export"
+    assert f"{said} {folder}" in shown
     monkeypatch.setattr(notebook, "MOST_POINTS", 415)
     shown = recording._repr_html_()
     assert "416 particles are too many for a notebook" in shown and "iframe" not in shown
