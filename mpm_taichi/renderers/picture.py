@@ -99,7 +99,8 @@ def draw_as_spheres(image: np.ndarray, camera: Camera, frame: Frame) -> None:
     nearness = np.clip(np.nan_to_num(0.5 + 0.5 * sight.toward / half), 0, 1)
     color = particle_colors(frame)
     color += HAZE * (1 - nearness)[:, None] * (palette.PANEL - color)
-    draw_spheres(image, sight.column, sight.row, camera.scale * sight.toward, radius, color)
+    toward = camera.scale * np.clip(sight.toward, -2 * half, 2 * half)  # one far off is just far
+    draw_spheres(image, sight.column, sight.row, toward, radius, color)
 
 
 def cut_off(image: np.ndarray, camera: Camera) -> None:

@@ -3,12 +3,14 @@
 import html
 import json
 import re
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mpm_taichi import Simulation, cli, disk_space, load_scene, notebook
+from mpm_taichi.arrays_file import write_arrays
 from mpm_taichi.errors import InputError
 from mpm_taichi.history_table import read_history
 from mpm_taichi.player import player
@@ -206,6 +208,29 @@ def test_a_history_that_grows_is_read_up_to_its_last_whole_line(tmp_path):
         read_history(path)
     with pytest.raises(InputError, match="is missing"):
         read_history(Path(tmp_path / "none.csv"))
+
+
+def test_arrays_read_back(tmp_path, rng):
+    """NumPy and zipfile read what is written, checksums too: numbers, an empty array, one that is
+    not contiguous; and the same arrays make the same bytes."""
+    arrays = {
+        "time": np.float64(rng.normal()),
+        "step": np.int64(7),
+        "none": np.zeros((0, 3), np.float32),
+        "body": rng.integers(0, 200, 1000).astype(np.uint8),
+        "position": rng.normal(size=(2, 1000)).astype(np.float32).T,
+    }
+    paths = tmp_path / "a.npz", tmp_path / "b.npz"
+    for path in paths:
+        write_arrays(path, **arrays)
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+    with zipfile.ZipFile(paths[0]) as archive:
+        assert archive.testzip() is None
+    with np.load(paths[0]) as file:
+        assert file.files == list(arrays)
+        for name, values in arrays.items():
+            assert file[name].dtype == values.dtype and file[name].shape == np.shape(values)
+            assert (file[name] == values).all()
 
 
 def test_files_appear_whole(spoilt):

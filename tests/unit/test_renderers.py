@@ -17,6 +17,7 @@ from mpm_taichi.renderers.rasterizer import draw_discs, draw_lines
 from mpm_taichi.renderers.spheres import draw_spheres
 from mpm_taichi.renderers.units import prefix, round_length, tick_labels, with_unit
 from mpm_taichi.scene import Images as Style
+from mpm_taichi.scene import View as SceneView
 from mpm_taichi.scene import load_scene
 from mpm_taichi.snapshot import Snapshot
 from tests.command_line import SCENES
@@ -576,6 +577,18 @@ class TestPicture:
         close = fit(box, 400, View(zoom=4.0))
         assert legend.scale_bar(image, close, box)[0].words.endswith("m in the middle")
 
+    def test_one_far_off(self):
+        """A particle that has flown a million domains away leaves the order of the others."""
+        toward = fit((1, 1, 1), 400).axes[2]
+        pair = 0.5 + np.array([-0.1, 0.1])[:, None] * toward
+        seen = []
+        for others in (np.zeros((0, 3)), 0.5 + -1e6 * toward[None]):
+            position = np.concatenate([pair, others])
+            body = np.array([0, 1, 0])[: len(position)]
+            frame = frame_of(position, 0.1, (1.0, 1.0, 1.0), body=body, body_names=["far", "near"])
+            seen.append(draw(frame, 0, 400))
+        assert np.array_equal(*seen)
+
     def test_up_is_y(self):
         """Both views have y upward and x to the right, and in 3D the corner `size` is nearest."""
         for size in ((1, 1), (1, 1, 1)):
@@ -610,6 +623,15 @@ class TestPicture:
         assert clock(0.0, 3.5) == "t = 0.000 s"
         assert clock(2e-5, 1e-3) == "t = 0.020 ms"
         assert clock(12345.0, 2e4) == "t = 12345.000 s"
+
+
+def test_recorder_takes_the_view_of_the_scene(tmp_path):
+    """What is not said is as it is without a view."""
+    view = SceneView(turn=10, zoom=2, center=(0.5, 0.2, 0.1))
+    simulation = SimpleNamespace()
+    recorder = Images(tmp_path / "frames", simulation, Style(view=view))
+    assert recorder.view == View(turn=10.0, tilt=View().tilt, zoom=2.0, center=[0.5, 0.2, 0.1])
+    assert Images(tmp_path / "others", simulation, Style()).view == View()
 
 
 COLOR_BY = get_args(Style.model_fields["color_by"].annotation)
