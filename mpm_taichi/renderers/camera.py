@@ -1,6 +1,7 @@
 """Where a point of the domain lies in the picture: orthographic in 2D, perspective in 3D."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -23,7 +24,7 @@ class View(NamedTuple):
     turn: float = TURN  # degrees
     tilt: float = TILT
     zoom: float = 1.0
-    center: tuple[float, ...] | None = None
+    center: Sequence[float] | None = None
 
 
 PLAIN = View()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import taichi as ti
 
+from ..runtime import Template
 from . import palette
 from .camera import Camera
 from .rasterizer import Pixels, Vectors, flat, single
@@ -30,12 +31,29 @@ def plane_axes(dim: int) -> tuple[int, int]:
     return (0, 1) if dim == 2 else (0, 2)
 
 
+@ti.func
+def between(shadow: Template, u, v):
+    """The value at the place (u, v), linear between the four around it."""
+    x, y = u * (shadow.shape[0] - 1), v * (shadow.shape[1] - 1)
+    a, b = ti.cast(x, ti.i32), ti.cast(y, ti.i32)
+    c, d = ti.min(a + 1, shadow.shape[0] - 1), ti.min(b + 1, shadow.shape[1] - 1)
+    near = shadow[a, b] + (y - b) * (shadow[a, d] - shadow[a, b])
+    far = shadow[c, b] + (y - b) * (shadow[c, d] - shadow[c, b])
+    return near + (x - a) * (far - near)
+
+
 @ti.kernel
 def fill_ground(
-    pixels: Pixels, width: int, height: int, to_plane: Matrix3, shadow: Vectors, colors: Vectors
+    pixels: Pixels,
+    width: int,
+    height: int,
+    to_plane: Matrix3,
+    colors: Vectors,
+    shadow: Vectors,
+    has_shadow: Template,
 ):
     """`colors`: of what is beside the plane, of the plane, of it in full shadow; `shadow` [n, m]:
-    how much of it."""
+    how much of it there is from edge to edge."""
     beside = ti.Vector([colors[0, 0], colors[0, 1], colors[0, 2]])
     plane = ti.Vector([colors[1, 0], colors[1, 1], colors[1, 2]])
     dark = ti.Vector([colors[2, 0], colors[2, 1], colors[2, 2]])
@@ -44,13 +62,9 @@ def fill_ground(
             at = to_plane @ ti.Vector([ti.cast(i, ti.f32), ti.cast(j, ti.f32), ti.f32(1.0)])
             color = beside
             if at.z > 0 and 0 <= at.x <= at.z and 0 <= at.y <= at.z:
-                u = at.x / at.z * (shadow.shape[0] - 1)
-                v = at.y / at.z * (shadow.shape[1] - 1)
-                a, b = ti.cast(u, ti.i32), ti.cast(v, ti.i32)
-                c, d = ti.min(a + 1, shadow.shape[0] - 1), ti.min(b + 1, shadow.shape[1] - 1)
-                near = shadow[a, b] + (v - b) * (shadow[a, d] - shadow[a, b])
-                far = shadow[c, b] + (v - b) * (shadow[c, d] - shadow[c, b])
-                color = plane + (near + (u - a) * (far - near)) * (dark - plane)
+                color = plane
+                if ti.static(has_shadow):
+                    color += between(shadow, at.x / at.z, at.y / at.z) * (dark - plane)
             pixels[j * width + i] = color
 
 
@@ -92,12 +106,15 @@ def shadow_of(position: np.ndarray, radius: np.ndarray, size: np.ndarray) -> np.
     return cover.astype(np.float32)
 
 
-def draw_ground(image: np.ndarray, camera: Camera, size: np.ndarray, shadow: np.ndarray) -> None:
+def draw_ground(
+    image: np.ndarray, camera: Camera, size: np.ndarray, shadow: np.ndarray | None = None
+) -> None:
     """Fill the image."""
     to_plane = pixel_to_plane(camera, size)
     if to_plane is None:
         image[:] = palette.BACKGROUND
         return
-    colors = np.stack([palette.BACKGROUND, palette.PANEL, palette.SHADOW])
+    colors = single(np.stack([palette.BACKGROUND, palette.PANEL, palette.SHADOW]))
     matrix = ti.Matrix(to_plane.tolist(), ti.f32)
-    fill_ground(*flat(image), matrix, single(shadow), single(colors))
+    shade = np.zeros((1, 1)) if shadow is None else shadow
+    fill_ground(*flat(image), matrix, colors, single(shade), shadow is not None)

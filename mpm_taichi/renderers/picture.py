@@ -21,9 +21,6 @@ FULL_SPHERE = (6 / np.pi) ** (1 / 3)
 """Radius of a sphere over half the edge of a cube of the same volume."""
 
 
-NO_SHADOW = np.zeros((2, 2))
-
-
 @dataclass(frozen=True, eq=False)
 class Frame:
     """What there is to see at one moment, in SI units."""
@@ -125,7 +122,7 @@ def draw(
     image = np.empty((camera.height, camera.width, 3), np.float32)
     start, end = (camera.pixel_of(x) for x in box_edges(box))
     if len(box) == 2:
-        draw_ground(image, camera, box, NO_SHADOW)
+        draw_ground(image, camera, box)
         draw_grid(image, camera, frame, grid_opacity)
         draw_lines(image, start, end, palette.LINE)
         draw_as_discs(image, camera, frame)

@@ -98,7 +98,7 @@ def fill_spheres(
     radius: Scalars,
     color: Vectors,
 ):
-    """`layer`: light and T of each pixel; `tiles`: how many open pixels each has."""
+    """`layer`: light and 1 - T of each pixel; `tiles`: how many open pixels each has."""
     per_row = (width + TILE - 1) // TILE
     for band in range((height + BAND - 1) // BAND):
         for p in range(radius.shape[0]):
@@ -111,20 +111,21 @@ def fill_spheres(
                 for j in range(top, bottom):
                     for i in range(left, right):
                         at = j * width + i
-                        T = layer[at].w
+                        T = 1 - layer[at].w
                         dx, dy = (i - x) * per_radius, (j - y) * per_radius
                         square = dx * dx + dy * dy
                         if T > 0 and r * (ti.sqrt(square) - 1) < ti.f32(0.5):
                             z = ti.sqrt(ti.max(0, 1 - square))
                             bright = ti.min(c * sphere_shade(dx, dy, z), 1)
                             part = T * ti.math.clamp(reach - r * ti.sqrt(square), 0, 1)
+                            closed = layer[at].w + part
                             if T - part < ti.f32(CLOSED):
-                                part = T
+                                part, closed = T, ti.f32(1.0)
                                 tile = j // TILE * per_row + i // TILE
                                 tiles[tile] = tiles[tile] - 1
-                            light = part * bright
-                            change = ti.Vector([light.x, light.y, light.z, -part])
-                            layer[at] = layer[at] + change  # "a = a + b" is never atomic
+                            light = layer[at].xyz + part * bright
+                            layer[at] = ti.Vector([light.x, light.y, light.z, closed])
+                            # "a = a + b" is never atomic
                             depth[at] = depth[at] + part * (toward[p] + r * z)
 
 
@@ -156,12 +157,12 @@ def blend_spheres(
 ):
     """The layer over the image from column `left` and row `top` on."""
     for at in depth:
-        cover = 1 - layer[at].w
+        cover = layer[at].w
         depth[at] = ti.select(cover > ti.f32(0.5), depth[at] / cover, ti.f32(NOWHERE))
     for j in range(height):
         for i in range(width):
             at = j * width + i
-            light, T = layer[at].xyz, layer[at].w
+            light, T = layer[at].xyz, 1 - layer[at].w
             if T < 1:
                 here, hidden = depth[at], ti.f32(0.0)
                 if here > ti.f32(NOWHERE):
@@ -203,7 +204,6 @@ def draw_spheres(
     top, bottom = window(row[order], reach, image.shape[0])
     width, height = right - left, bottom - top
     layer = np.zeros((height * width, 4), np.float32)
-    layer[:, 3] = 1
     depth = np.zeros(height * width, np.float32)
     radius = values[3][order]
     fill_spheres(

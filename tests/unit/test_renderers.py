@@ -627,7 +627,7 @@ class TestPicture:
 
 def test_recorder_takes_the_view_of_the_scene(tmp_path):
     """What is not said is as it is without a view."""
-    view = SceneView(turn=10, zoom=2, center=(0.5, 0.2, 0.1))
+    view = SceneView(turn=10, zoom=2, center=[0.5, 0.2, 0.1])
     simulation = SimpleNamespace()
     recorder = Images(tmp_path / "frames", simulation, Style(view=view))
     assert recorder.view == View(turn=10.0, tilt=View().tilt, zoom=2.0, center=[0.5, 0.2, 0.1])
