@@ -14,6 +14,7 @@ import numpy as np
 
 from .errors import InputError
 from .history_table import read_history
+from .notebook import inline_player
 from .recorders.snapshots import SCALARS, numbered
 from .recorders.stages import moving_stages, stages_path
 from .run_folder import read_report
@@ -116,6 +117,10 @@ class Recording:
 
     def __iter__(self) -> Iterator[RecordedFrame]:
         return (self[number] for number in range(len(self)))
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it: the player (notebook.py)."""
+        return inline_player(self)
 
     @cached_property
     def times(self) -> np.ndarray:

@@ -389,6 +389,11 @@ class Simulation:
         m[gone], V0[gone] = 0.0, 0.0
         return {"mass": m, "initial_volume": V0}
 
+    @property
+    def is_deleted(self) -> np.ndarray:
+        """[n], whether the particle has left the domain and was taken out."""
+        return self._constant["mass"] == 0
+
     @cached_property
     def snapshot(self) -> Snapshot:
         """The particles now; computed once a step at most."""

@@ -6,8 +6,6 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-import numpy as np
-
 
 @contextlib.contextmanager
 def beside(path: Path) -> Iterator[Path]:
@@ -45,9 +43,3 @@ def write_text(path: Path, text: str) -> None:
 
 def write_json(path: Path, content: dict) -> None:
     write_text(path, json.dumps(content, indent=2) + "\n")
-
-
-def write_arrays(path: Path, **arrays) -> None:
-    """An .npz file, not compressed."""
-    with beside(path) as part, part.open("wb") as file:
-        np.savez(file, **arrays)

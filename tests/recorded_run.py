@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from mpm_taichi import load_scene
+from mpm_taichi.arrays_file import write_arrays
 from mpm_taichi.recorders.snapshots import SCALARS
 from mpm_taichi.scene import dump_scene
-from mpm_taichi.whole_files import write_arrays
 from tests.command_line import SCENES
 
 

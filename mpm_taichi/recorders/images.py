@@ -38,10 +38,18 @@ class Images:
         frame = frame_of(simulation, snapshot, quantity, value, shown)
         write_png(
             self.folder / f"frame_{self.count:04d}.png",
-            draw(frame, self.style.grid, self.style.size),
+            draw(frame, self.style.grid, self.style.size, self.view),
             {"Title": scene.title, "time": repr(snapshot.time)},
         )
         self.count += 1
+
+    @property
+    def view(self):
+        """What the scene says of it."""
+        from ..renderers.camera import View
+
+        said = self.style.view.model_dump(exclude_none=True)
+        return View(**said)
 
     def state(self) -> dict[str, Any]:
         return {"count": self.count, "low": float(self.low), "high": float(self.high)}

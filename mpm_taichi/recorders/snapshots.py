@@ -4,11 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arrays_file import write_arrays
+from ..kernels.record import record
 from ..materials.law import MaterialLaw
-from ..whole_files import write_arrays
 
-SCALARS = {"pressure": "pressure", "stress": "von_mises_stress", "density": "density"}
-"""Of each particle, by their names in `output.images.color_by`; and those in a Snapshot."""
+SCALARS = ("pressure", "stress", "density")
+"""Of each particle, by their names in `output.images.color_by`; where a law has it plastic_strain
+too."""
 
 MOST_UNASKED = 200_000
 """Particles up to which snapshots are recorded where the scene says nothing of them."""
@@ -50,9 +52,7 @@ class Snapshots:
     def __init__(self, folder: Path, simulation, state: dict | None = None):
         folder.mkdir(exist_ok=True)
         self.folder, self.count = folder, 0 if state is None else state["count"]
-        self.names = dict(SCALARS)
-        if has_plastic_strain(simulation.scene):
-            self.names["plastic_strain"] = "plastic_strain"
+        self.plastic = has_plastic_strain(simulation.scene)
         for number, path in numbered(folder):
             if number >= self.count:
                 path.unlink()
@@ -62,15 +62,18 @@ class Snapshots:
     def record(self, simulation, is_output):
         if not is_output:
             return
-        now = simulation.snapshot
-        arrays = {"position": now.visible_position, "velocity": now.velocity}
-        with np.errstate(invalid="ignore"):  # density of what was deleted: nan
-            arrays |= {name: getattr(now, source) for name, source in self.names.items()}
+        arrays = record(simulation.solver.particles, self.plastic)
+        if not all(np.isfinite(values).all() for values in arrays.values()):
+            _ = simulation.snapshot  # names the particle that is no number
+        gone = simulation.is_deleted
+        if gone.any():
+            arrays["position"][gone] = np.nan
+            arrays["density"][gone] = np.nan
         write_arrays(
             self.folder / f"snapshot_{self.count:04d}.npz",
-            time=np.float64(now.time),
-            step=np.int64(now.step),
-            **{name: values.astype(np.float32) for name, values in arrays.items()},
+            time=np.float64(simulation.time),
+            step=np.int64(simulation.step_count),
+            **arrays,
         )
         self.count += 1
 

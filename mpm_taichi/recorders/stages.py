@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arrays_file import write_arrays
 from ..errors import MotionError
 from ..stage_formulas import stage_names
 from ..walk import Stage, Walk
-from ..whole_files import write_arrays
 from .snapshots import OVERHEAD
 
 MOVING = ("particles to nodes", "grid update", "stress")

@@ -1,19 +1,33 @@
 """Where a point of the domain lies in the picture: orthographic in 2D, perspective in 3D."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-TURN, TILT = np.radians(32), np.radians(20)
-"""The view in 3D: turned about the y axis, to the right, and tilted down."""
+TURN, TILT = 32.0, 20.0
+"""Degrees, of the view in 3D: turned about the y axis, to the right, and tilted down."""
 
 DISTANCE = 4.0
 """From the camera to the center of the domain in 3D, in half diagonals of the domain."""
 
 NARROWEST, NARROW = 19, 32
 """Widths [em] of a picture that just holds its texts, and of one with the time beside the title."""
+
+
+class View(NamedTuple):
+    """From where the domain is seen.  `center`: the point in the middle of the picture [m]; None:
+    all of the domain is, before it is enlarged by `zoom`."""
+
+    turn: float = TURN  # degrees
+    tilt: float = TILT
+    zoom: float = 1.0
+    center: Sequence[float] | None = None
+
+
+PLAIN = View()
 
 
 class Sight(NamedTuple):
@@ -41,6 +55,8 @@ class Camera:
     height: int = 0
     em: int = 0  # size of the text, pixels
     margin: int = 0  # from the picture's edges to its texts, pixels
+    stage: tuple[int, int, int, int] = (0, 0, 0, 0)
+    """Columns and rows, from and up to, that all of the domain takes; a larger view is cut off."""
     narrow: bool = False  # the time stands below the title
 
     def look(self, x: np.ndarray) -> Sight:
@@ -73,23 +89,23 @@ def orientation(dim: int, turn: float = TURN, tilt: float = TILT) -> np.ndarray:
     """Rows: the directions to the right, up and toward the viewer, in the axes of the domain."""
     if dim == 2:
         return np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
-    toward = np.array([np.sin(turn) * np.cos(tilt), np.sin(tilt), np.cos(turn) * np.cos(tilt)])
-    right = np.array([np.cos(turn), 0.0, -np.sin(turn)])
-    return np.array([right, np.cross(toward, right), toward])
+    (s, t), (c, d) = np.sin(np.radians([turn, tilt])), np.cos(np.radians([turn, tilt]))
+    return np.array([[c, 0.0, -s], [-s * t, d, -c * t], [s * d, t, c * d]])
 
 
-def viewpoint(domain_size) -> Camera:
+def viewpoint(domain_size, view: View = PLAIN) -> Camera:
     """From where the pictures see the box [0, domain_size]; a pixel per meter."""
     box = np.asarray(domain_size, float)
     distance = np.inf if len(box) == 2 else float(DISTANCE * np.linalg.norm(box) / 2)
-    return Camera(orientation(len(box)), box / 2, distance)
+    return Camera(orientation(len(box), view.turn, view.tilt), box / 2, distance)
 
 
-def fit(domain_size, size: int) -> Camera:
+def fit(domain_size, size: int, view: View = PLAIN) -> Camera:
     """The camera that shows the box [0, domain_size] `size` pixels long on the picture's longer
-    side, within margins for the texts; width and height of the whole are even."""
+    side, within margins for the texts; width and height of the whole are even.  A zoom or a center
+    changes what is seen there, not the size of the picture."""
     box = np.asarray(domain_size, float)
-    camera = viewpoint(box)
+    camera = viewpoint(box, view)
     seen = camera.pixel_of(corners(box))
     scale = size / np.ptp(seen, axis=0).max()
     low, high = seen.min(0) * scale, seen.max(0) * scale
@@ -99,14 +115,19 @@ def fit(domain_size, size: int) -> Camera:
     narrow = width < NARROW * em
     left, top = (width - columns) // 2, round((4.6 if narrow else 3.2) * em)
     height = top + rows + round(5.8 * em)
+    middle = np.array([left + (columns - 1) / 2, top + (rows - 1) / 2])
+    at = np.array([left - low[0], top + rows - 1 - high[1]])
+    at = middle + view.zoom * (at - middle) if view.center is None else middle
     return replace(
         camera,
-        scale=scale,
-        column=left - low[0],
-        row=top + rows - 1 - high[1],
+        center=box / 2 if view.center is None else np.array(view.center),
+        scale=scale * view.zoom,
+        column=float(at[0]),
+        row=float(at[1]),
         width=width + width % 2,
         height=height + height % 2,
         em=em,
         margin=min(left, 2 * em),
+        stage=(left, left + columns, top, top + rows),
         narrow=narrow,
     )

@@ -64,31 +64,53 @@ def heading(camera: Camera, title: str, time: float, longest_time: float) -> lis
     return [Text((left, 1.9 * em), title, 1.2 * em, palette.INK, "ls"), beside]
 
 
-def scale_bar(image: np.ndarray, camera: Camera) -> list[Text]:
-    """A bar of a round length: below the domain in 2D, on the lower front edge of its box in 3D."""
-    if len(camera.center) == 2:
-        return bar_below(image, camera)
+def scale_bar(image: np.ndarray, camera: Camera, size: np.ndarray) -> list[Text]:
+    """A bar of a round length: below the domain in 2D, on a lower edge of its box in 3D, where
+    perspective makes it as long as what is there; below, where the view has no room for that."""
     em = camera.em
-    length_x, _, front = 2 * camera.center
-    meters = round_length(length_x / 3)
-    start, end = camera.pixel_of(np.array([(0, 0, front), (meters, 0, front)]))
+    edge = _bar_on_edge(camera, size) if len(size) == 3 else None
+    if edge is None:
+        return bar_below(image, camera)
+    meters, start, end = edge
+    words = with_unit(meters, "m")
     middle, row = (start + end) / 2 + (-0.3 * em, 1.3 * em)
-    left = max(middle - length(with_unit(meters, "m"), em), camera.margin)
-    return _bar(image, em, start, end, (left, row), meters)
+    left = max(middle - length(words, em), camera.margin)
+    return _bar(image, em, start, end, (left, row), words)
 
 
 def bar_below(image: np.ndarray, camera: Camera) -> list[Text]:
-    """A bar of a round length in the lower left corner, in 3D as long as at the center."""
+    """A bar of a round length in the lower left corner, in 3D as long as what is as far away as the
+    middle of the view, and it says so."""
     em = camera.em
     meters = round_length(5 * em / camera.scale)
     start = np.array([camera.margin, camera.height - 3.1 * em])
     end = start + np.array([meters * camera.scale, 0])
-    return _bar(image, em, start, end, (camera.margin, camera.height - 1.4 * em), meters)
+    words = with_unit(meters, "m") + (" in the middle" if len(camera.center) == 3 else "")
+    return _bar(image, em, start, end, (camera.margin, camera.height - 1.4 * em), words)
 
 
-def _bar(image, em, start, end, at, meters) -> list[Text]:
+def _bar(image, em, start, end, at, words) -> list[Text]:
     draw_lines(image, start[None], end[None], palette.INK, thickness=max(1, em / 7))
-    return [Text(at, with_unit(meters, "m"), em, palette.INK, "ls")]
+    return [Text(at, words, em, palette.INK, "ls")]
+
+
+def _bar_on_edge(camera: Camera, size: np.ndarray):
+    """Its length and its ends on the picture, from the left end of that lower edge of the box which
+    is least foreshortened and, of the two, nearer; None where it would be cut off."""
+    axis = 0 if abs(camera.axes[0, 0]) >= abs(camera.axes[0, 2]) else 2
+    other = 2 - axis
+    start = np.zeros(3)
+    start[other] = size[other] if camera.axes[2, other] > 0 else 0.0
+    forward = camera.axes[0, axis] > 0
+    start[axis] = 0.0 if forward else size[axis]
+    meters = round_length(size[axis] / 3)
+    end = start.copy()
+    end[axis] += meters if forward else -meters
+    ends = camera.pixel_of(np.stack([start, end]))
+    left, right, top, bottom = camera.stage
+    low, high = np.array([left - 1, top - 1]), np.array([right + 1, bottom + 1])
+    seen = ((ends >= low) & (ends <= high)).all()
+    return (meters, *ends) if seen and camera.axes[2, 1] < 0.9 else None
 
 
 def color_bar(
@@ -132,11 +154,15 @@ def body_names(image: np.ndarray, camera: Camera, names: list[str]) -> list[Text
     return texts
 
 
-def write(image: np.ndarray, texts: list[Text]) -> np.ndarray:
-    """The texts over an image of uint8 [height, width, 3]."""
-    picture = Image.fromarray(image)
-    pen = ImageDraw.Draw(picture)
+def write(image: np.ndarray, texts: list[Text]) -> None:
+    """The texts, into an image of uint8 [height, width, 3]."""
     for text in texts:
-        color = palette.eight_bit(text.color)
-        pen.text(text.at, text.words, color, font(text.size), anchor=text.anchor)
-    return np.array(picture)
+        face, (column, row) = font(text.size), text.at
+        left, top, right, bottom = face.getbbox(text.words, anchor=text.anchor)
+        left, top = max(int(column + left) - 2, 0), max(int(row + top) - 2, 0)
+        part = image[top : int(row + bottom) + 3, left : int(column + right) + 3]
+        if part.size:
+            patch = Image.fromarray(part)
+            at, color = (column - left, row - top), palette.eight_bit(text.color)
+            ImageDraw.Draw(patch).text(at, text.words, color, face, anchor=text.anchor)
+            part[:] = np.asarray(patch)

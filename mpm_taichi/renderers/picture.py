@@ -3,18 +3,22 @@
 from dataclasses import dataclass
 
 import numpy as np
-from PIL import Image, ImageDraw
 
 from . import legend, palette
-from .camera import Camera, corners, fit
+from .camera import PLAIN, Camera, View, corners, fit
+from .ground import draw_ground, plane_axes, shadow_of
 from .quantities import QUANTITIES, shown_range
-from .rasterizer import draw_discs, draw_lines
+from .rasterizer import draw_discs, draw_lines, eight_bits
+from .spheres import draw_spheres
 
 FINEST_CELL = 4.0
 """Lines of a grid with cells of fewer pixels are left out; they fade in up to twice as many."""
 
 HAZE = 0.25
 """Part of the background in the color of a particle at the back of a 3D domain."""
+
+FULL_SPHERE = (6 / np.pi) ** (1 / 3)
+"""Radius of a sphere over half the edge of a cube of the same volume."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,15 +39,10 @@ class Frame:
     longest_time: float = 0.0  # the end of the run: it decides between s, ms, us
 
 
-def grid_plane(size: np.ndarray) -> tuple[int, int]:
-    """The two axes of the plane that shows the grid: the domain in 2D, its floor in 3D."""
-    return (0, 1) if len(size) == 2 else (0, 2)
-
-
 def grid_lines(size: np.ndarray, cells: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Starts and ends [n, dim] of the lines between the cells of the grid plane."""
     starts, ends = [], []
-    for along, across in (grid_plane(size), grid_plane(size)[::-1]):
+    for along, across in (plane_axes(len(size)), plane_axes(len(size))[::-1]):
         start = np.zeros((cells[across] - 1, len(size)))
         start[:, across] = np.arange(1, cells[across]) * size[across] / cells[across]
         end = start.copy()
@@ -63,19 +62,9 @@ def box_edges(camera: Camera, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return at[[a for a, _ in pairs]], at[[b for _, b in pairs]]
 
 
-def backdrop(camera: Camera, size: np.ndarray) -> np.ndarray:
-    """A new image with the background and the grid plane."""
-    across, along = (np.eye(len(size))[axis] * size for axis in grid_plane(size))
-    quad = camera.pixel_of(np.array([0 * across, across, across + along, along]))
-    plane = Image.new("L", (camera.width, camera.height))
-    ImageDraw.Draw(plane).polygon([tuple(at) for at in quad], 1)
-    colors = np.array([palette.BACKGROUND, palette.PANEL], np.float32)
-    return np.take(colors, np.asarray(plane), axis=0)
-
-
 def draw_grid(image: np.ndarray, camera: Camera, frame: Frame, opacity: float) -> None:
     size = np.asarray(frame.domain_size)
-    finest = min(camera.scale * size[axis] / frame.cells[axis] for axis in grid_plane(size))
+    finest = min(camera.scale * size[axis] / frame.cells[axis] for axis in plane_axes(len(size)))
     opacity *= np.clip(finest / FINEST_CELL - 1, 0, 1)
     if opacity > 0:
         start, end = (camera.pixel_of(x) for x in grid_lines(size, frame.cells))
@@ -103,47 +92,52 @@ def draw_as_discs(image: np.ndarray, camera: Camera, frame: Frame) -> None:
 
 
 def draw_as_spheres(image: np.ndarray, camera: Camera, frame: Frame) -> None:
-    """The particles of a 3D domain, the far ones first and paled by their distance."""
+    """The particles of a 3D domain as spheres of their volume, paled by their distance."""
     sight = camera.look(frame.position)
-    radius = np.maximum(sight.scale * frame.radius, 0.7)
-    half = 0.5 * np.asarray(frame.domain_size)
-    depth = (sight.toward - camera.look(half[None]).toward) / np.linalg.norm(half)
+    radius = np.maximum(FULL_SPHERE * sight.scale * frame.radius, 0.7)
+    middle = np.asarray(frame.domain_size) / 2
+    half = np.linalg.norm(middle)
+    depth = (sight.toward - camera.look(middle[None]).toward) / half
     nearness = np.clip(np.nan_to_num(0.5 + 0.5 * depth), 0, 1)
     color = particle_colors(frame)
     color += HAZE * (1 - nearness)[:, None] * (palette.PANEL - color)
-    order = np.argsort((65535 * nearness).astype(np.uint16), kind="stable")  # a radix sort
-    sorted_by_depth = [values[order] for values in (sight.column, sight.row, radius, color)]
-    draw_discs(image, *sorted_by_depth, lit=True)
+    toward = camera.scale * np.clip(sight.toward, -2 * half, 2 * half)  # one far off is just far
+    draw_spheres(image, sight.column, sight.row, toward, radius, color)
 
 
-def draw_shadow(image: np.ndarray, camera: Camera, frame: Frame) -> None:
-    """The shadow of a light straight above, on the floor of a 3D domain."""
-    x, _, z = frame.position.T
-    inside = (x >= 0) & (x <= frame.domain_size[0]) & (z >= 0) & (z <= frame.domain_size[2])
-    feet = np.stack([x, np.zeros_like(x), z], axis=-1)[inside]
-    sight = camera.look(feet)
-    color = np.broadcast_to(palette.SHADOW, feet.shape)
-    draw_discs(image, sight.column, sight.row, sight.scale * frame.radius[inside], color)
+def cut_off(image: np.ndarray, camera: Camera) -> None:
+    """What a larger view shows beyond the stage."""
+    rim = camera.em // 2
+    left, right, top, bottom = camera.stage
+    for outside in (
+        np.s_[: top - rim], np.s_[bottom + rim :], np.s_[:, : left - rim], np.s_[:, right + rim :]
+    ):  # fmt: skip
+        image[outside] = palette.BACKGROUND
 
 
-def draw(frame: Frame, grid_opacity: float = 0.5, size: int = 800) -> np.ndarray:
+def draw(
+    frame: Frame, grid_opacity: float = 0.5, size: int = 800, view: View = PLAIN
+) -> np.ndarray:
     """The picture of a frame, uint8 [height, width, 3], row 0 at the top.
 
     The longer side of the domain is `size` pixels long; the margins come on top of it.  The same
     frame gives the same bytes, whatever the precision and threads of the run."""
-    camera = fit(frame.domain_size, size)
-    image = draw_ground(camera, frame, grid_opacity)
+    box = np.asarray(frame.domain_size, float)
+    camera = fit(box, size, view)
+    image = backdrop(camera, frame, grid_opacity)
     draw_particles(image, camera, frame)
-    texts = legend.scale_bar(image, camera) + texts_around(image, camera, frame)
-    return legend.write(eight_bit(image), texts)
+    if view.zoom != 1 or view.center is not None:
+        cut_off(image, camera)
+    texts = legend.scale_bar(image, camera, box) + texts_around(image, camera, frame)
+    return finished(image, texts)
 
 
-def draw_ground(camera: Camera, frame: Frame, grid_opacity: float) -> np.ndarray:
+def backdrop(camera: Camera, frame: Frame, grid_opacity: float) -> np.ndarray:
     """What lies behind the particles, on a new image of float32: the domain and its grid."""
     box = np.asarray(frame.domain_size, float)
-    image = backdrop(camera, box)
-    if len(box) == 3:
-        draw_shadow(image, camera, frame)
+    image = np.empty((camera.height, camera.width, 3), np.float32)
+    shadow = shadow_of(frame.position, frame.radius, box) if len(box) == 3 else None
+    draw_ground(image, camera, box, shadow)
     draw_grid(image, camera, frame, grid_opacity)
     start, end = (camera.pixel_of(x) for x in box_edges(camera, box))
     behind = len(start) if len(box) == 2 else -3
@@ -172,8 +166,8 @@ def texts_around(image: np.ndarray, camera: Camera, frame: Frame) -> list[legend
     return texts + legend.color_bar(image, camera, frame.quantity, quantity, *shown)
 
 
-def eight_bit(image: np.ndarray) -> np.ndarray:
-    """float32 from 0 to 1 -> uint8; the image itself is spoilt."""
-    image *= 255
-    image += 0.5
-    return image.astype(np.uint8)
+def finished(image: np.ndarray, texts: list[legend.Text]) -> np.ndarray:
+    """float32 from 0 to 1 -> uint8, with its texts."""
+    picture = eight_bits(image)
+    legend.write(picture, texts)
+    return picture

@@ -34,6 +34,7 @@ from .models import (
     ParaView,
     Scene,
     Time,
+    View,
     Walls,
 )
 from .reader import load_material, load_scene
@@ -71,6 +72,7 @@ __all__ = [
     "Snow",
     "TPICChoice",
     "Time",
+    "View",
     "VonMises",
     "Walls",
     "XPICChoice",

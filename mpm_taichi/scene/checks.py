@@ -149,6 +149,18 @@ def stages(domain, output) -> Iterator[Found]:
         yield ("output", "stages"), "needs the snapshots, so output.snapshots must not be false"
 
 
+def view(domain, output) -> Iterator[Found]:
+    """A 2D domain is seen straight on; the middle has one entry per axis."""
+    if output.images == "none":
+        return
+    place, its = ("output", "images", "view"), output.images.view
+    for key in ("turn", "tilt"):
+        if domain.dimension == 2 and getattr(its, key) is not None:
+            yield (*place, key), "a 2D domain is seen straight on: only a 3D one can be turned"
+    if its.center is not None and len(its.center) != domain.dimension:
+        yield (*place, "center"), wrong_length(its.center, domain)
+
+
 def gravity(domain, gravity) -> Iterator[Found]:
     if gravity is not None and len(gravity) != domain.dimension:
         yield ("gravity",), wrong_length(gravity, domain)
@@ -252,6 +264,7 @@ CHECKS = (
     step,
     interval,
     stages,
+    view,
     gravity,
     names,
     material,

@@ -173,6 +173,30 @@ def _increasing(limits: list[float] | None) -> list[float] | None:
     return limits
 
 
+class View(Model):
+    """From where the pictures are taken."""
+
+    turn: float | None = Field(
+        default=None,
+        ge=-360,
+        le=360,
+        description="in 3D, how far around the y axis the viewer stands [degrees]: 0 in front, 90 "
+        "at the right; default: 32",
+    )
+    tilt: float | None = Field(
+        default=None,
+        ge=0,
+        le=90,
+        description="in 3D, how far above the floor the viewer stands [degrees]; default: 20",
+    )
+    zoom: float = Field(
+        default=1.0, ge=0.1, le=100, description="how many times as large as all of the domain"
+    )
+    center: Vector | None = Field(
+        default=None, description="point in the middle of the picture [m]; default: the domain's"
+    )
+
+
 class Images(Model):
     """Pictures of the particles."""
 
@@ -189,6 +213,7 @@ class Images(Model):
     ] = Field(
         default=None, description="values at the ends of the color scale; default: from the data"
     )
+    view: View = Field(default=View(), description="from where the pictures are taken")
 
 
 class Exact(Model):

@@ -7,7 +7,7 @@ import numpy as np
 from ..renderers import legend, palette
 from ..renderers.camera import Camera
 from ..renderers.moment import frame_of, value_of
-from ..renderers.picture import Frame, draw_ground, draw_particles, eight_bit, texts_around
+from ..renderers.picture import Frame, backdrop, draw_particles, finished, texts_around
 from ..renderers.rasterizer import draw_lines
 from .cell_numbers import draw_cell_numbers
 from .chart import draw_chart
@@ -63,7 +63,7 @@ def draw_canvas(
     """uint8 [height, width, 3], row 0 at the top."""
     frame, camera = frame_now(playback, looks), viewpoint.camera(width, height)
     opacity = looks.grid_opacity if looks.shows_grid else 0.0
-    image = draw_ground(camera, frame, opacity)
+    image = backdrop(camera, frame, opacity)
     draw_cell_numbers(image, camera, frame, opacity)
     draw_particles(image, camera, frame)
     stage, marks = playback.stage_of(looks.watched), []
@@ -76,7 +76,7 @@ def draw_canvas(
     texts = marks + legend.bar_below(image, camera) + texts_around(image, camera, frame)
     if playback.fault is not None:
         texts += fault_texts(playback.fault, image)
-    return legend.write(eight_bit(image), texts)
+    return finished(image, texts)
 
 
 def draw_window(

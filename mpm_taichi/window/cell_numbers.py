@@ -8,8 +8,9 @@ from PIL import Image, ImageDraw
 
 from ..renderers import palette
 from ..renderers.camera import Camera
+from ..renderers.ground import plane_axes
 from ..renderers.legend import font
-from ..renderers.picture import Frame, grid_plane
+from ..renderers.picture import Frame
 
 SIZE = 11
 """Of the digits [pixels]."""
@@ -45,7 +46,7 @@ def draw_cell_numbers(image: np.ndarray, camera: Camera, frame: Frame, opacity: 
         return
     opacity = min(1, 0.35 + opacity)
     size, cells = np.asarray(frame.domain_size), np.asarray(frame.cells)
-    plane = grid_plane(size)
+    plane = plane_axes(len(size))
     edge = size / cells
     if len(size) == 2 and camera.scale * edge.min() >= ROOMY:
         _number_cells(image, camera, cells, edge, opacity)

@@ -5,8 +5,8 @@ from math import ceil
 import numpy as np
 
 from ..renderers import palette
-from ..renderers.legend import Text, write
-from ..renderers.picture import eight_bit
+from ..renderers.legend import Text
+from ..renderers.picture import finished
 from ..renderers.rasterizer import draw_lines
 from ..renderers.units import round_length, tick_labels, with_unit
 from .energies import Energies
@@ -58,7 +58,7 @@ def draw_chart(energies: Energies, end: float, width: int, height: int) -> np.nd
         texts.append(Text((LEFT + 24, row), name, SIZE, palette.INK, "ls"))
         now = with_unit(float(values[-1]), "J")
         texts.append(Text((width - RIGHT, row), now, SIZE, palette.INK, "rs"))
-    return write(eight_bit(image), texts)
+    return finished(image, texts)
 
 
 def _axes(image, at, low, high, end, bottom):

@@ -14,7 +14,7 @@ SIDE, TOP, BOTTOM = 2 * EM, 4 * EM, 7 * EM
 
 ZOOMS = (0.2, 400.0)
 
-RADIAN = 180
+DEGREE = 3
 """Pixels of dragging that turn the view by one."""
 
 
@@ -72,5 +72,5 @@ class Viewpoint:
 
     def orbit(self, columns: float, rows: float) -> None:
         """Dragged by so many pixels; never from below the floor."""
-        self.turn -= columns / RADIAN
-        self.tilt = float(np.clip(self.tilt + rows / RADIAN, 0, np.pi / 2))
+        self.turn -= columns / DEGREE
+        self.tilt = float(np.clip(self.tilt + rows / DEGREE, 0, 90))

@@ -16,6 +16,7 @@ from mpm_taichi.kernels import (
     ghosts,
     grid_update,
     p2g,
+    record,
     sort,
     stiffness,
     sums,
@@ -29,6 +30,7 @@ from mpm_taichi.reference.kernels import g2p as twin_g2p
 from mpm_taichi.reference.kernels import ghosts as twin_ghosts
 from mpm_taichi.reference.kernels import grid_update as twin_grid_update
 from mpm_taichi.reference.kernels import p2g as twin_p2g
+from mpm_taichi.reference.kernels import record as twin_record
 from mpm_taichi.reference.kernels import slivers as twin_slivers
 from mpm_taichi.reference.kernels import stiffness as twin_stiffness
 from mpm_taichi.reference.kernels import sums as twin_sums
@@ -118,6 +120,17 @@ def test_steps_and_stages_equal_the_twin(exact, rng, dim, basis, transfer):
         assert largest_difference(ours, added[name]) < TOLERANCE, name
     assert P.lost[None] == Q.lost
     assert np.isfinite(P.to_numpy("x")).all()
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_a_record_equals_the_twin(exact, rng, dim):
+    """To float32, in which both are given; the twin takes the stress from its deviator."""
+    fast, twin = build(rng, dim, "QuadraticBSpline", "MLS")
+    three_steps(fast, twin, DT * (0.5 + rng.random(3)))
+    theirs = twin_record.record(twin.particles, True)
+    for name, ours in record.record(fast.particles, True).items():
+        assert ours.dtype == theirs[name].dtype == np.float32
+        assert largest_difference(ours, theirs[name]) < 3e-7, name
 
 
 ORDERS = [

@@ -1,14 +1,19 @@
 """Particles of each output: recorded, foreseen on the disk, and read back or refused in words."""
 
+import html
 import json
+import re
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mpm_taichi import Simulation, cli, disk_space, load_scene
+from mpm_taichi import Simulation, cli, disk_space, load_scene, notebook
+from mpm_taichi.arrays_file import write_arrays
 from mpm_taichi.errors import InputError
 from mpm_taichi.history_table import read_history
+from mpm_taichi.player import player
 from mpm_taichi.recorders import Snapshots
 from mpm_taichi.recorders.snapshots import has_plastic_strain, wants_snapshots
 from mpm_taichi.recording import Recording
@@ -70,6 +75,25 @@ def test_a_recording_is_what_the_run_was(moments):
     assert recording[-1].step == recording[4].step
     with pytest.raises(IndexError):
         recording[5]
+
+
+def test_a_notebook_plays_it(moments, monkeypatch):
+    """`_repr_html_` is the page of `export --html`, in a frame of its own that may run scripts and
+    nothing else; of a recording that is too long every few frames, and the words that say so; of
+    one with too many particles the words alone."""
+    folder, _ = moments
+    recording = Recording(folder)
+    shown = recording._repr_html_()
+    frame = re.fullmatch(r'<iframe sandbox="allow-scripts" [^<>]*srcdoc="([^"]*)"></iframe>', shown)
+    assert frame and html.unescape(frame[1]) == player(recording).html
+    monkeypatch.setattr(notebook, "MOST_POINTS", 416 * 2)
+    shown = recording._repr_html_()
+    assert html.escape(player(recording, 3).html) in shown
+    said = "1 of 3 frames is shown, of 5 in all; the others: python -m mpm_taichi export"
+    assert f"{said} {folder}" in shown
+    monkeypatch.setattr(notebook, "MOST_POINTS", 415)
+    shown = recording._repr_html_()
+    assert "416 particles are too many for a notebook" in shown and "iframe" not in shown
 
 
 def test_the_disk_space_is_foreseen(moments):
@@ -184,6 +208,29 @@ def test_a_history_that_grows_is_read_up_to_its_last_whole_line(tmp_path):
         read_history(path)
     with pytest.raises(InputError, match="is missing"):
         read_history(Path(tmp_path / "none.csv"))
+
+
+def test_arrays_read_back(tmp_path, rng):
+    """NumPy and zipfile read what is written, checksums too: numbers, an empty array, one that is
+    not contiguous; and the same arrays make the same bytes."""
+    arrays = {
+        "time": np.float64(rng.normal()),
+        "step": np.int64(7),
+        "none": np.zeros((0, 3), np.float32),
+        "body": rng.integers(0, 200, 1000).astype(np.uint8),
+        "position": rng.normal(size=(2, 1000)).astype(np.float32).T,
+    }
+    paths = tmp_path / "a.npz", tmp_path / "b.npz"
+    for path in paths:
+        write_arrays(path, **arrays)
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+    with zipfile.ZipFile(paths[0]) as archive:
+        assert archive.testzip() is None
+    with np.load(paths[0]) as file:
+        assert file.files == list(arrays)
+        for name, values in arrays.items():
+            assert file[name].dtype == values.dtype and file[name].shape == np.shape(values)
+            assert (file[name] == values).all()
 
 
 def test_files_appear_whole(spoilt):

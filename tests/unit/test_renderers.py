@@ -10,12 +10,14 @@ from PIL import Image
 
 from mpm_taichi import runtime
 from mpm_taichi.recorders import Images
-from mpm_taichi.renderers import Frame, draw, legend, palette, write_png
-from mpm_taichi.renderers.camera import corners, fit
+from mpm_taichi.renderers import Frame, draw, legend, palette, png, write_png
+from mpm_taichi.renderers.camera import View, corners, fit
 from mpm_taichi.renderers.quantities import QUANTITIES, shown_range
 from mpm_taichi.renderers.rasterizer import draw_discs, draw_lines
+from mpm_taichi.renderers.spheres import draw_spheres
 from mpm_taichi.renderers.units import prefix, round_length, tick_labels, with_unit
 from mpm_taichi.scene import Images as Style
+from mpm_taichi.scene import View as SceneView
 from mpm_taichi.scene import load_scene
 from mpm_taichi.snapshot import Snapshot
 from tests.command_line import SCENES
@@ -63,6 +65,12 @@ def disc(image, column, row, radius, color=(1.0, 1.0, 1.0)):
     draw_discs(image, column * one, row * one, radius * one, np.array([color]))
 
 
+def spheres(image, *each, color=(1.0, 1.0, 1.0)):
+    """Each: (column, row, toward, radius)."""
+    column, row, toward, radius = np.array(each, float).T
+    draw_spheres(image, column, row, toward, radius, np.tile(color, (len(each), 1)))
+
+
 def oklab(rgb) -> np.ndarray:
     """Ottosson (2020): sRGB [n, 3] -> OKLab [n, 3]."""
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
@@ -104,10 +112,18 @@ class TestPng:
         def no_memory(*_):
             raise MemoryError
 
-        monkeypatch.setattr(zlib, "compress", no_memory)
+        monkeypatch.setattr(zlib, "compressobj", no_memory)
         with pytest.raises(MemoryError):
             write_png(path, np.ones((4, 4, 3), np.uint8), {"t": "1"})
         assert path.read_bytes() == before
+
+    def test_bands(self, tmp_path, rng):
+        """A picture of more than a band, deflated by several threads, reads back equal."""
+        image = rng.integers(0, 256, (500, 900, 3), dtype=np.uint8)
+        assert image.size > png.BAND
+        write_png(tmp_path / "a.png", image)
+        with Image.open(tmp_path / "a.png") as read:
+            assert np.array_equal(np.asarray(read), image)
 
     def test_text_outside_latin_1(self, tmp_path):
         """A Greek letter cannot be stored in tEXt; it becomes "?" and the picture is written."""
@@ -252,13 +268,14 @@ class TestRasterizer:
         memory = np.full((3 * height, width, 3), 0.25, np.float32)
         image = memory[height : 2 * height]
         image[:] = 0
-        draw_discs(large, column + far, row + far, radius, color, lit=True)
-        draw_discs(image, column, row, radius, color, lit=True)
+        draw_discs(large, column + far, row + far, radius, color)
+        draw_discs(image, column, row, radius, color)
         start, end = np.stack([column, row], -1)[:50], np.stack([column, row], -1)[50:100]
         draw_lines(large, start + far, end + far, np.ones(3), 1.5, 0.7)
         draw_lines(image, start, end, np.ones(3), 1.5, 0.7)
         # the position in the large image is rounded at 2^-17 pixels
         assert np.abs(image - large[far:-far, far:-far]).max() < 1e-3
+        draw_spheres(image, column, row, rng.uniform(-50, 50, count), radius, color)
         assert (memory[:height] == 0.25).all() and (memory[2 * height :] == 0.25).all()
 
     def test_wild_numbers(self):
@@ -293,14 +310,63 @@ class TestRasterizer:
             assert np.abs(there - line(b, a)).max() < 1e-4
             assert np.abs(there - line(a[::-1], b[::-1]).T).max() < 1e-6
 
-    def test_sphere_is_lit_from_above_left(self):
-        """The light comes from above, left and front: of a gray sphere the upper left is brighter
-        than the lower right, and no channel leaves [0, 1] even for white."""
+
+class TestSpheres:
+    def test_lit_from_above_left(self):
+        """The light comes from above, left and front: of a white sphere the upper left is brighter
+        than the lower right, and no channel leaves [0, 1].  Nothing hides its sky: in the middle it
+        is 0.52 + 0.62 x 0.61 bright."""
         image = blank(60, 60)
-        center = np.full(1, 30.0)
-        draw_discs(image, center, center, np.full(1, 25.0), np.ones((1, 3)), lit=True)
+        spheres(image, (30, 30, 0, 25))
         assert image[18, 20, 0] > image[30, 30, 0] > image[42, 40, 0] > 0.2
+        assert image[30, 30, 0] == pytest.approx(0.52 + 0.62 * 0.61, abs=1e-5)
         assert image.min() >= 0 and image.max() <= 1
+
+    def test_the_nearer_one_hides_the_farther_one(self):
+        """Whatever their order: where both cover a pixel it has the color of the nearer one, and
+        beside it that of the other."""
+        at, red, blue = np.full(2, 30.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+        for order in ([0, 1], [1, 0]):
+            image = blank(60, 60)
+            each = np.array([-5.0, 20.0]), np.array([20.0, 6.0]), np.array([red, blue])
+            toward, radius, color = (values[order] for values in each)
+            draw_spheres(image, at, at, toward, radius, color)
+            assert image[30, 30, 2] > 0.5 and image[30, 30, 0] == 0
+            assert image[30, 14, 0] > 0.2 and image[30, 14, 2] == 0
+
+    def test_covers_its_disc(self, rng):
+        """The layer lets through what spheres leave open: one of color 0 over white takes away the
+        area of its disc, pi (r^2 + 1/12), as a disc does (1.5 %)."""
+        for radius in rng.uniform(4, 30, 5):
+            image = blank(80, 90) + 1
+            column, row = rng.uniform(35, 45, 2)
+            spheres(image, (column, row, 0, radius), color=(0, 0, 0))
+            taken = (1 - image[..., 0]).sum(dtype=float)
+            assert taken == pytest.approx(np.pi * (radius**2 + 1 / 12), rel=0.015)
+
+    def test_dark_in_a_pit(self):
+        """A sphere that lies a radius deeper than the six around it sees half of its sky, and is
+        darker than alone by a quarter or more; the others look out, and lose nothing at the rim."""
+        alone, both = blank(120, 120), blank(120, 120)
+        turns = np.arange(6) * np.pi / 3
+        around = [(60 + 28 * np.cos(a), 60 + 28 * np.sin(a), 20, 14) for a in turns]
+        spheres(alone, (60, 60, 0, 14))
+        spheres(both, (60, 60, 0, 14), *around)
+        assert both[60, 60, 0] < 0.75 * alone[60, 60, 0]
+        ring = blank(120, 120)
+        spheres(ring, around[0])
+        assert both[60, 99, 0] == pytest.approx(ring[60, 99, 0], abs=1e-6)
+
+    def test_wild_numbers(self):
+        """What is not finite is skipped."""
+        image = blank(20, 20)
+        wild = (np.nan, np.inf, -np.inf, 1e300)
+        for number in wild:
+            for place in range(4):
+                one = [10.0, 10.0, 0.0, 5.0]
+                one[place] = number
+                spheres(image, tuple(one))
+        assert (image == 0).all()
 
 
 class TestPicture:
@@ -435,6 +501,94 @@ class TestPicture:
         near = palette.BODIES[1] / np.linalg.norm(palette.BODIES[1])
         assert direction @ near > 0.99
 
+    @pytest.mark.parametrize("turn", [0, 90])
+    def test_perspective_by_hand(self, turn):
+        """A domain of 2 x 1 x 1 m seen straight from the front, or from its right: half its
+        diagonal is sqrt(6) / 2, the camera is four times as far away, and the near face, 2 m (1 m)
+        wide and 0.5 m (1 m) before the middle, takes 400 pixels.  A sphere is seen where similar
+        triangles put it: `pixel_of` to a pixel's half, since the stage has whole pixels, and its
+        disc there to the pixel that the rim may or may not touch."""
+        away = 2 * np.sqrt(6)
+        wide, before = (2.0, 0.5) if turn == 0 else (1.0, 1.0)
+        scale = 400 / wide * (1 - before / away)
+        x = np.array([1.5, 0.75, 0.3])
+        right, toward = (0.5, -0.2) if turn == 0 else (0.2, 0.5)
+        view = View(turn=turn, tilt=0)
+        camera = fit((2, 1, 1), 400, view)
+        left, _, top, bottom = camera.stage
+        tall = 400 / wide  # the domain is 1 m high
+        middle = left + 200.0, (top + bottom - 1) / 2
+        assert bottom - top == pytest.approx(tall + 1, abs=1)
+        shrink = scale / (1 - toward / away)
+        expected = np.array([middle[0] + right * shrink, middle[1] - 0.25 * shrink])
+        assert camera.pixel_of(x) == pytest.approx(expected, abs=0.51)  # a whole number of pixels
+        frame, empty = (frame_of(at, 0.02, (2.0, 1.0, 1.0)) for at in ([x], np.zeros((0, 3))))
+        cover = draw(frame, 0, 400, view).astype(float) - draw(empty, 0, 400, view)
+        rows, columns = np.nonzero(np.abs(cover).sum(-1))
+        found = [(columns.min() + columns.max()) / 2, (rows.min() + rows.max()) / 2]
+        assert found == pytest.approx(camera.pixel_of(x), abs=0.6)
+
+    def test_floor_and_shadow(self):
+        """The floor is brighter than what is beside it, but for the places straight below a body,
+        which are darker than both; a body above it takes nothing from the floor elsewhere."""
+        lattice = np.stack(np.meshgrid(*[np.linspace(0.4, 0.6, 11)] * 3), -1).reshape(-1, 3)
+        camera = fit((1, 1, 1), 400)
+        image = draw(frame_of(lattice, 0.01, (1.0, 1.0, 1.0)), 0, 400)
+        below, elsewhere = camera.pixel_of([[0.5, 0, 0.5], [0.8, 0, 0.8]]).round().astype(int)
+        assert tuple(image[below[1], below[0]]) == palette.eight_bit(palette.SHADOW)
+        assert tuple(image[elsewhere[1], elsewhere[0]]) == palette.eight_bit(palette.PANEL)
+        assert palette.SHADOW.sum() < palette.BACKGROUND.sum() < palette.PANEL.sum()
+
+    @pytest.mark.parametrize("dim", [2, 3])
+    def test_view(self, rng, dim):
+        """With a center and a zoom the picture is as large as without; the center is in the middle
+        of the stage, a length there `zoom` times as long, and nothing is drawn beyond the stage."""
+        box, plain = np.ones(dim), fit(np.ones(dim), 400)
+        center = tuple(rng.uniform(0.3, 0.7, dim))
+        view = View(zoom=3.0, center=center)
+        camera = fit(box, 400, view)
+        left, right, top, bottom = camera.stage
+        assert (camera.width, camera.height) == (plain.width, plain.height)
+        assert camera.pixel_of(center) == pytest.approx(
+            [(left + right - 1) / 2, (top + bottom - 1) / 2]
+        )
+        assert camera.scale == pytest.approx(3 * plain.scale)
+        frame = frame_of(rng.uniform(0, 1, (400, dim)), 0.02, (1.0,) * dim)
+        image, rim = draw(frame, 1, 400, view), camera.em
+        strip = image[top - rim : top - rim // 2 - 1]
+        assert mask_of(strip, palette.BACKGROUND).all()
+        assert not mask_of(image[top:bottom, left:right], palette.BACKGROUND).all()
+
+    def test_scale_bar(self):
+        """In 2D a length on the picture; in 3D one on an edge of the box, which is as long there;
+        in a view that shows no such edge, one in the middle, which the words say."""
+        flat = fit((1, 1), 400)
+        assert [text.words for text in legend.scale_bar(blank(900, 900), flat, np.ones(2))] == [
+            "0.1 m"
+        ]
+        box = np.array([2.0, 1.0, 1.0])
+        camera, image = fit(box, 400), blank(600, 600)
+        [text] = legend.scale_bar(image, camera, box)
+        assert text.words == "0.5 m"
+        start, end = camera.pixel_of([[0, 0, 1], [0.5, 0, 1]])
+        rows, columns = np.nonzero(image[..., 0] > 0.2)
+        assert [columns.min(), columns.max()] == pytest.approx([start[0], end[0]], abs=2)
+        assert [rows.min(), rows.max()] == pytest.approx([start[1], end[1]], abs=2)
+        close = fit(box, 400, View(zoom=4.0))
+        assert legend.scale_bar(image, close, box)[0].words.endswith("m in the middle")
+
+    def test_one_far_off(self):
+        """A particle that has flown a million domains away leaves the order of the others."""
+        toward = fit((1, 1, 1), 400).axes[2]
+        pair = 0.5 + np.array([-0.1, 0.1])[:, None] * toward
+        seen = []
+        for others in (np.zeros((0, 3)), 0.5 + -1e6 * toward[None]):
+            position = np.concatenate([pair, others])
+            body = np.array([0, 1, 0])[: len(position)]
+            frame = frame_of(position, 0.1, (1.0, 1.0, 1.0), body=body, body_names=["far", "near"])
+            seen.append(draw(frame, 0, 400))
+        assert np.array_equal(*seen)
+
     def test_up_is_y(self):
         """Both views have y upward and x to the right, and in 3D the corner `size` is nearest."""
         for size in ((1, 1), (1, 1, 1)):
@@ -469,6 +623,15 @@ class TestPicture:
         assert clock(0.0, 3.5) == "t = 0.000 s"
         assert clock(2e-5, 1e-3) == "t = 0.020 ms"
         assert clock(12345.0, 2e4) == "t = 12345.000 s"
+
+
+def test_recorder_takes_the_view_of_the_scene(tmp_path):
+    """What is not said is as it is without a view."""
+    view = SceneView(turn=10, zoom=2, center=[0.5, 0.2, 0.1])
+    simulation = SimpleNamespace()
+    recorder = Images(tmp_path / "frames", simulation, Style(view=view))
+    assert recorder.view == View(turn=10.0, tilt=View().tilt, zoom=2.0, center=[0.5, 0.2, 0.1])
+    assert Images(tmp_path / "others", simulation, Style()).view == View()
 
 
 COLOR_BY = get_args(Style.model_fields["color_by"].annotation)

@@ -148,8 +148,20 @@ SECTIONS = [
     (
         "{color_by: speed}",
         "no",
-        "26:23: output.images: must be a mapping with the keys color_by, grid, size, range or none "
-        "(got 'no'); did you mean 'none'?",
+        "26:23: output.images: must be a mapping with the keys color_by, grid, size, range, view "
+        "or none (got 'no'); did you mean 'none'?",
+    ),
+    (
+        "color_by: speed",
+        "view: {turn: 90}",
+        "26:39: output.images.view.turn: a 2D domain is seen straight on: only a 3D one can be "
+        "turned",
+    ),
+    (
+        "color_by: speed",
+        "view: {center: [1, 1, 1]}",
+        "26:39: output.images.view.center: must have 2 entries, one for each axis of domain.size "
+        "(got 3)",
     ),
     (
         "{color_by: speed}",

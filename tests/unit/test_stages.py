@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mpm_taichi import cli, load_scene
+from mpm_taichi.arrays_file import write_arrays
 from mpm_taichi.errors import InputError
 from mpm_taichi.player import player
 from mpm_taichi.player.page import template
@@ -19,7 +20,6 @@ from mpm_taichi.recording import Recording
 from mpm_taichi.reference import bases
 from mpm_taichi.reference.kernels.stencil import stencil
 from mpm_taichi.stage_formulas import stage_names
-from mpm_taichi.whole_files import write_arrays
 from tests.command_line import SCENES
 from tests.recorded_run import turning_disk, write_run
 
