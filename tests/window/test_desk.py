@@ -150,9 +150,11 @@ class TestPlayback:
         """Numbers that are none, found by the guard or in the snapshot, amid a step too: the
         particle is named in the picture, the last sound moment stays, and Reset begins again."""
         playback = desk.playback
+        before = desk.picture()
         if by_stages:
             desk.toggle_stages()
-        before = desk.picture()
+            playback.step()
+            playback.go_on()
         H = playback.simulation.solver.particles.H
         broken = H.to_numpy()
         broken[7] = np.nan
@@ -170,6 +172,9 @@ class TestPlayback:
         words = desk.picture()
         assert (words != before).any()
         playback.reset()
+        if by_stages:
+            desk.toggle_stages()
+            desk.viewpoint.reset()
         assert playback.fault is None
         assert (desk.picture() == before).all()
 
