@@ -83,8 +83,8 @@ def draw_window(
     playback: Playback, looks: Looks, viewpoint: Viewpoint, layout: Layout
 ) -> np.ndarray:
     """uint8 of the whole window: the canvas, the chart, and room for widgets."""
-    image = np.empty((layout.height, layout.width, 3), np.uint8)
-    image[:] = palette.eight_bit(palette.BACKGROUND)
+    color = np.array(palette.eight_bit(palette.BACKGROUND), np.uint8)
+    image = np.tile(color, (layout.height, layout.width, 1))
     canvas, chart = layout.canvas, layout.chart
     image[: canvas.height, : canvas.width] = draw_canvas(
         playback, looks, viewpoint, canvas.width, canvas.height

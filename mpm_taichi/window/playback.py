@@ -73,8 +73,8 @@ class Playback:
             self.walk = None
 
     def stage_of(self, particle: int) -> Stage | None:
-        """Where the walk stands, for a particle; None where it has not begun."""
-        if self.walk is None or not self._is_at_stage:
+        """Where the walk stands, for a particle; None where it has not begun or went wrong."""
+        if self.walk is None or not self._is_at_stage or self.fault is not None:
             return None
         self.walk.particle = particle
         return self.walk.stage

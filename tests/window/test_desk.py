@@ -145,24 +145,36 @@ class TestPlayback:
         playback.go_on()
         assert playback.simulation.step_count == 1
 
-    def test_a_run_that_goes_wrong(self, desk):
-        """Numbers that are none, found by the guard or in the snapshot: the particle is named in
-        the picture, the last sound moment stays, and Reset begins again."""
+    @pytest.mark.parametrize("by_stages", [False, True])
+    def test_a_run_that_goes_wrong(self, desk, by_stages):
+        """Numbers that are none, found by the guard or in the snapshot, amid a step too: the
+        particle is named in the picture, the last sound moment stays, and Reset begins again."""
         playback = desk.playback
         before = desk.picture()
+        if by_stages:
+            desk.toggle_stages()
+            playback.step()
+            playback.go_on()
         H = playback.simulation.solver.particles.H
         broken = H.to_numpy()
         broken[7] = np.nan
         H.from_numpy(broken)
-        playback.start_or_stop()
         for _ in range(10):
+            if by_stages:
+                playback.step()
+            elif not playback.is_running:
+                playback.start_or_stop()
             playback.go_on()
+            press(desk)
         assert not playback.is_running
         assert re.search(r"particle \d+ \(body lower", playback.fault)
         assert np.isfinite(playback.snapshot.position).all()
         words = desk.picture()
         assert (words != before).any()
         playback.reset()
+        if by_stages:
+            desk.toggle_stages()
+            desk.viewpoint.reset()
         assert playback.fault is None
         assert (desk.picture() == before).all()
 

@@ -212,6 +212,9 @@ def _use_all(window: Window, folder: Path):
     use("toggle grid", lambda now: not now["shows_grid"])
     use("grid opacity", lambda now: now["grid_opacity"] > 0.7, across=0.8)
     use("toggle log", lambda now: now["shows_log"])
+    log = layout_of(*SIZE, has_notes=True).notes
+    window.drag((log.left + 0.3 * log.width, log.top + 27 + 9.5))
+    window.until(lambda now: now["first"] > 50)
     window.press("l")
     window.until(lambda now: not now["shows_log"])
     use("step by stages", lambda now: now["walks"])
