@@ -82,7 +82,8 @@ def plan(options):
     """Case, scheme and dimension of each row."""
     for name in options.cases or CASES:
         case = CASES[name]
-        for scheme in case.quick if options.quick else case.schemes:
+        short = options.quick and not options.scheme
+        for scheme in case.quick if short else case.schemes:
             if options.scheme and str(scheme) not in options.scheme:
                 continue
             for precision, dimension in product(
@@ -102,7 +103,9 @@ def parse(arguments=None):
         "--scheme", nargs="+", choices=sorted({str(s) for s in EVERY}), metavar="SCHEME",
         help='as "cubic mls" or "linear flip musl"; of those that a case has',
     )  # fmt: skip
-    parser.add_argument("--quick", action="store_true", help="a few schemes each, 2D, f64")
+    parser.add_argument(
+        "--quick", action="store_true", help="less of each, of few schemes, 2D, f64"
+    )
     parser.add_argument("--seed", type=int, help="of what is drawn; default: drawn too")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers, row by row")
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw cases x schemes")
