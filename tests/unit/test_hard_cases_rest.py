@@ -14,7 +14,7 @@ NAMES = ["H1", "H2", "H6", "H7", "H9", "H14", "H18", "H20", "H21", "H22", "H23",
 CHECKS = ("--debug", "--no-fast-math")
 
 
-def run_suite(*words, timeout=1200):
+def run_suite(*words: str, timeout: float | None = 1200):
     """Output and exit code of the suite in a process of its own."""
     return subprocess.run(
         [sys.executable, BENCHMARKS / "stability.py", *words],
