@@ -12,8 +12,8 @@ vanishes along an axis, and tau with it.  Only a total Lagrangian form could tur
 holds codes to that: a particle that changes sides has had a step above the limit.
 
 With hat functions and USL no step is short enough for a node that little matter touches
-(numerics.md 4.1; H7, H8), and random stress meets such nodes at once: energy grows.  MUSL has no
-such limit.
+(numerics.md 4.1; H7, H8), and random stress meets such nodes at once: energy grows 18 times.  MUSL
+has no such limit; under the plate it gains 1.4 % where particles cross cells (H2), reported.
 
 A law in ln J stops, and names the least id of those with J <= 0.  Under the plate J stays above 0
 with either law: it is a product of such factors."""
@@ -138,4 +138,5 @@ CASE = Case(
         "linear: flip, flip musl; gimp: flip, apic; quadratic: flip, apic, mls; cubic: flip, mls"
     ),
     schemes("quadratic: mls"), fails={"linear flip": "E / E0 (random)"},
+    reported=("linear flip musl",),
 )  # fmt: skip

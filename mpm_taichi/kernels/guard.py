@@ -23,7 +23,8 @@ cell, where tension makes it unstable whatever the basis (benchmarks/lattice_sta
 def size(x, bits: Template):
     """Of a number: its bits without the sign grow with |x|, and what is no number is larger than
     all others.  Fast-math takes x != x for false, but leaves integers alone."""
-    return ti.bit_cast(x, bits) << 1
+    all_but_the_sign = bits(ti.static(2**63 - 1 if bits == ti.u64 else 2**31 - 1))
+    return ti.bit_cast(x, bits) & all_but_the_sign
 
 
 @ti.func
