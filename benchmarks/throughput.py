@@ -138,9 +138,9 @@ def rate_table(results):
                     *(f"{row['total'] / forms[name]['total']:.3f}" for name in TEXTBOOK),
                     *(f"{100 * share:.1f} %" if share else "" for share in shares),
                     f"{row['bytes_per_particle']:.0f}", f"{row['bytes_per_node']:.0f}",
-                    f"{row['first_step_seconds']:.1f} s",
+                    f"{row['first_step_seconds']:.1f} s", f"{row['first_step_cpu']:.1f} s",
                 ])  # fmt: skip
-    return markdown([*head, "B/particle", "B/node", "first step"], lines)
+    return markdown([*head, "B/particle", "B/node", "first step", "CPU"], lines)
 
 
 def thread_table(results):

@@ -209,7 +209,8 @@ def main():
     given = json.loads(sys.argv[1])
     kind, began = KINDS[given.pop("kind")], given.pop("began")
     work = kind(**given)
-    about = {"first_step_seconds": time.time() - began} | work.about()
+    first = {"first_step_seconds": time.time() - began, "first_step_cpu": time.process_time()}
+    about = first | work.about()
     print(json.dumps(about), file=answers, flush=True)
     for _ in sys.stdin:
         print(json.dumps(work.turn()), file=answers, flush=True)

@@ -1,5 +1,9 @@
 """Stage 5: particles alone.  One kernel per law, so that laws never meet in one, and one launch per
-material."""
+material.
+
+Particle by particle: tiles of 4 or 8 in one basic block, for LLVM to pack across particles, are no
+faster (neo-Hookean in 3D: 1.27 and 1.33 times the P2G beside it; one by one 1.10 to 1.46), not with
+H laid out by tiles either (1.41), and compile in 6 and 22 s more."""
 
 import taichi as ti
 
