@@ -182,7 +182,8 @@ def whole_steps(
         pace, densities, seen, tally, most, numbers, lengths, bounds,
     )  # fmt: skip
     clock.time, clock.dt, clock.last = map(float, numbers[[TIME, DT, LAST]])
-    clock.motion = Motion(*map(float, numbers[[SPEED, RATE, COMPRESSION]]))
+    speed, rate, compression = map(float, numbers[[SPEED, RATE, COMPRESSION]])
+    clock.motion = Motion(speed, rate, compression)
     clock.drift, clock.growth_left = map(float, numbers[[DRIFT, LEFT]])
     clock.stiffness = {}
     if numbers[LOOKS]:
