@@ -2,10 +2,11 @@
 
 Angular momentum is kept by APIC, with either form of its force, to rounding; the disk widens by
 some (w R / c)^2 / 4 and breathes.  In plane strain the volume at its center grows, at rest in the
-turning frame, by 2 A = (w R / c)^2 (2 lam + 3 mu) / (4 (lam + mu)), 0.6 % with nu = 0.3; starting
-without strain it overshoots by as much again: J up to 1.012 (hard_cases.md has 1.01, of a set-up
-that it does not give).  PIC loses all, FLIP 7 %, FLIP with 1 % of PIC 80 %
-(hard_cases.md, H9, measured)."""
+turning frame, by 2 A = (w R / c)^2 (2 lam + 3 mu) / (4 (lam + mu)), 0.6 % with nu = 0.3.  It starts
+without strain and swings beyond, at the center by more than as much again, since waves from the rim
+meet there: the radial modes of linear elasticity, added up (finite elements along r), come to J =
+1.0133 within five revolutions (hard_cases.md has 1.01, of a set-up that it does not give).  PIC
+loses all, FLIP 7 %, FLIP with 1 % of PIC 80 % (hard_cases.md, H9, measured)."""
 
 import numpy as np
 from experiments import schemes
@@ -62,7 +63,7 @@ def once(scheme, offset, w, dim) -> Found:
         Figure("dE / E", energies[-1] / energies[0] - 1, -0.005, at_least=True),
         Figure("radius", max(radii) / radii[0] - 1, 0.005),
         Figure("least J", min(volumes), 0.99, at_least=True),
-        Figure("largest J", max(volumes), 1.012),
+        Figure("largest J", max(volumes), 1.0133),
     ]
     return Found(figures, clamps(simulation))
 
