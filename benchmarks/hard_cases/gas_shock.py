@@ -11,13 +11,11 @@ and the shock leaves the wall at M - u.  Density, pressure and J stay positive (
 the mean error by volume of the density, up to twice the way of the shock, stays below 0.05 of
 rho_2, the bound that the document gives for the tube."""
 
-from typing import Any
-
 import numpy as np
 from experiments import schemes
 
 from .case import Case, Draw, Figure, Found
-from .scenes import body, clamps, simulate
+from .scenes import SIDES, along, body, clamps, simulate, strip
 
 MACH, GAMMA, LENGTH, END = 10, 1.4, 370, 28.6
 TINY = float(np.finfo(np.float32).tiny)
@@ -27,26 +25,19 @@ PRESSURE = (1 + 2 * GAMMA / (GAMMA + 1) * (MACH**2 - 1)) / GAMMA
 
 
 def measure(scheme, draw: Draw) -> Found:
-    turn = draw.orientation(2)
-    axis = int(np.abs(turn[:, 0]).argmax())
-    forth = turn[axis, 0]
-    cells, v = [1, 1], [0.0, 0.0]
-    cells[axis], v[axis] = LENGTH, float(-forth * SPEED)
-    sides = (("left", "right"), ("bottom", "top"))
-    walls = dict.fromkeys(sides[1 - axis], "periodic") | {
-        sides[axis][0 if forth > 0 else 1]: "slip"
-    }
+    (axis, upwards), dim = draw.axis(), draw.dimension
+    wall = SIDES[axis][not upwards]
+    cells, domain = strip(LENGTH, axis, dim, **{wall: "slip"})
+    v = along(axis, dim, -SPEED if upwards else SPEED)
     gas = {"type": "gas", "density": 1, "pressure": 1 / GAMMA, "heat_ratio": GAMMA}
-    sections: dict[str, Any] = {"domain": {"walls": walls}}
-    simulation = simulate(
-        scheme, cells, [body("gas", [0, 0], cells, 3, velocity=v)], gas, END, **sections
-    )
+    filled = body("gas", [0] * dim, cells, 3, velocity=v)
+    simulation = simulate(scheme, cells, [filled], gas, END, domain=domain)
     least = dict.fromkeys(("density", "pressure", "volume_ratio"), np.inf)
     for now in simulation.frames():
         for name in least:
             least[name] = min(least[name], getattr(now.snapshot, name).min())
     s = simulation.snapshot
-    x = s.position[:, axis] if forth > 0 else LENGTH - s.position[:, axis]
+    x = s.position[:, axis] if upwards else LENGTH - s.position[:, axis]
     shock, V = (MACH - SPEED) * END, s.initial_volume * s.volume_ratio
     near = x < 2 * shock
     exact = np.where(x < shock, DENSITY, 1.0)
