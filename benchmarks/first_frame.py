@@ -36,17 +36,18 @@ def waited(scene: str, cache: str) -> dict[str, float]:
         frames = Path(folder) / "run" / "frames"
         environment = os.environ | QUIET | {"TI_OFFLINE_CACHE_FILE_PATH": cache}
         began, seen = time.perf_counter(), {}
-        process = subprocess.Popen(command, env=environment)
+        process = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True)
         for name, number in (("start", 0), ("output", 1)):
             while not (frames / f"frame_{number:04d}.png").exists():
                 if process.poll() is not None or time.perf_counter() - began > PATIENCE:
                     process.kill()
-                    sys.exit(f"{scene}: no picture {number} after {PATIENCE:.0f} s or at its end")
+                    _, said = process.communicate()
+                    sys.exit(f"{scene}: no picture {number}, in {PATIENCE:.0f} s or at all\n{said}")
                 time.sleep(POLL)
             seen[name] = time.perf_counter() - began
         seen["cpu"] = cpu_seconds(process.pid)
         process.terminate()
-        process.wait()
+        process.communicate()
         return seen
 
 
