@@ -130,7 +130,7 @@ class Simulation:
         self.first_dt = self.dt
         self.guard_steps, self.guarded = GUARD_STEPS, 0
         self.slivers, self.sliver_look = 0, 0  # their count, and the step of the next look
-        self.parting = 0  # most particles at a time
+        self.parting = 0  # particles that are about to, most at an output
         self.is_started = False  # recorders have seen the start
         self.is_amid_step = False
         self.stop_asked = False  # `advance` returns after the step or launch that it is at
@@ -209,8 +209,6 @@ class Simulation:
         take = self._take_whole_steps if self.solver.is_whole else self._take_step
         before, landing = self.step_count, False
         while not landing and self.step_count - before < most:
-            if self.step_count >= self.sliver_look and self.time_step.fears_slivers:
-                self._look_for_slivers()
             landing = take(most - (self.step_count - before))
             self._settle(landing)
             if self.stop_asked:
@@ -231,6 +229,8 @@ class Simulation:
         """After a step or a launch of several."""
         self._forget_moment()
         self._look_after()
+        if landing:
+            self.look_for_parting()
         self.output_count += landing
 
     def _forget_moment(self):
@@ -271,6 +271,10 @@ class Simulation:
         bad = self.solver.particles.bad[None]
         if bad < self.ranges[-1]:
             raise gone_wrong(self, bad)
+
+    def look_for_parting(self) -> None:
+        """At an output: how many particles are about to lose their neighbors."""
+        self.guard()
         self.parting = max(self.parting, self.solver.particles.parting[None])
 
     @property
@@ -285,6 +289,7 @@ class Simulation:
         return landing
 
     def _stages(self) -> Iterator[str]:
+        self._look_for_slivers()
         dt = self.dt
         time = self.next_output if self._lands else self.time + dt
         dt_next = self._fitting(self.time_step.choose(), time)
@@ -294,6 +299,7 @@ class Simulation:
         self._note_steps(time, [dt], [self.time_step.code])
 
     def _take_whole_steps(self, most) -> bool:
+        self._look_for_slivers()
         more = self.output_count + 1 < self.outputs.count
         rule = self.time_step
         clock = Clock(
@@ -303,6 +309,8 @@ class Simulation:
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
         together = min(most, MOST_TOGETHER, patience, self.guard_steps)
+        if rule.fears_slivers:
+            together = min(together, self.sliver_look - self.step_count)
         self.solver.take_whole_steps(clock, int(together))
         self.dt = clock.dt
         rule.take_up(clock)
@@ -313,9 +321,10 @@ class Simulation:
         return landing
 
     def _look_for_slivers(self):
-        """Before a step, which clears what this leaves at the nodes."""
-        self.slivers += self.solver.slivers(self.dt)
-        self.sliver_look = self.step_count + slivers.EVERY_STEPS
+        """If that is due, and before a step, which clears what this leaves at the nodes."""
+        if self.step_count >= self.sliver_look and self.time_step.fears_slivers:
+            self.slivers += self.solver.slivers(self.dt)
+            self.sliver_look = self.step_count + slivers.EVERY_STEPS
 
     def _note_steps(self, time, lengths, bounds):
         self.time, self.step_count, self.last_dt = time, self.step_count + len(lengths), lengths[-1]

@@ -253,6 +253,7 @@ def test_what_was_deleted_has_no_place(tmp_path):
     for remaining in ([3, 300], []):
         mass, volume = np.zeros(416), np.zeros(416)
         mass[remaining], volume[remaining] = 0.625, 1 / 1600
+        vars(simulation)["_constant"] = {"mass": mass, "initial_volume": volume}
         vars(simulation)["snapshot"] = replace(whole, mass=mass, initial_volume=volume)
         for recorder in recorders:
             recorder.record(simulation, is_output=True)
