@@ -118,6 +118,26 @@ def test_turning_changes_nothing(rng, material, dim):
         assert np.abs(values - values[0]).max() <= 1e-11 * np.abs(values).max()
 
 
+@each_dim
+@each(TURNING)
+def test_a_thousand_revolutions(rng, material, dim):
+    """Sheared, flowing where the law flows, then turned a thousand times about an axis of its own,
+    in fifths: the stress is that of the start, turned; nothing flows (hard_cases.md, H10: 1e-9;
+    rounding errors of 5000 steps are some 1e-12)."""
+    F0 = deformations(rng, 4, dim, 1.0, 0.3)
+    fifth, turn = 2 * np.pi / 5, np.eye(dim)
+    turn[:2, :2] = [[np.cos(fifth), -np.sin(fifth)], [np.sin(fifth), np.cos(fifth)]]
+    Q = rotations(rng, 4, dim)
+    R = Q @ turn @ Q.swapaxes(1, 2)
+    rates = np.concatenate([F0[None], np.tile(R, (5000, 1, 1, 1))]) - np.eye(dim)
+    found = followed(material, rates)
+    for step, turned in ((-1, np.eye(dim)), (-3, R.swapaxes(1, 2) @ R.swapaxes(1, 2))):
+        tau = turned @ found.tau[0] @ turned.swapaxes(-1, -2)
+        assert np.abs(found.tau[step] - tau).max() <= 1e-9 * np.abs(tau).max()
+    for values in (found.lost, found.plastic_strain, found.J):
+        assert np.abs(values - values[0]).max() <= 1e-9 * np.abs(values).max()
+
+
 @pytest.mark.slow
 @each(LAWS + VISCOUS)
 def test_plane_strain_is_space_without_a_third_stretch(rng, material):

@@ -130,6 +130,8 @@ def test_published_case_against_plain_numpy(table, plain):
 def test_generic_collision_equals_plain_numpy(rng):
     """With velocities drawn at random no particle lies on a node to the last bit, and the two codes
     are one method in the same precision: they differ by rounding errors, which contact multiplies.
+    Both take the given step as it is: a node of weight 1e-7 can make |grad v| so large that ours
+    would shorten one.
 
     Before contact (no stress, energies of 2.6): 1e-12, some 1000 roundings of 1e-16 each.  Up to
     t = 2 measured up to 2e-12 in four draws; a particle that crosses a node at a weight w has a
@@ -141,7 +143,9 @@ def test_generic_collision_equals_plain_numpy(rng):
     thousand goes below 1e-11 and 1e-16 J."""
     velocity = np.array([[0.1, 0.1], [-0.1, -0.1]]) * (1 + 0.02 * rng.uniform(-1, 1, (2, 2)))
     changes = [f"bodies[{b}].velocity={velocity[b].tolist()}" for b in range(2)]
-    scene = load_scene(SCENES / "two_disks_lattice.yaml", [*changes, "time.end=2"])
+    scene = load_scene(
+        SCENES / "two_disks_lattice.yaml", [*changes, "time.end=2", "time.enforce=false"]
+    )
     simulation = Simulation(scene)
     energies, places, momenta = [], [], []
     for now in simulation.frames():
