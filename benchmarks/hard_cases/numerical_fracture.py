@@ -109,10 +109,10 @@ def pulled(scheme, place, axis, draw):
                 break
     except RunError:
         pass
-    mean = np.ones(MEAN) / MEAN
-    stretch, force = (np.convolve(values, mean, "valid") for values in (stretches, forces))
+    mean, most = np.ones(MEAN) / MEAN, 1 + int(np.argmax(stretches))  # a gauge shortens as it snaps
+    stretch, force = (np.convolve(values[:most], mean, "valid") for values in (stretches, forces))
     fallen = (force < 0.95 * mu * (stretch - 1 / stretch)) & (stretch > SEEN_FROM)
-    bears = stretch[fallen.argmax()] if fallen.any() else stretch.max()
+    bears = stretch[fallen.argmax()] if fallen.any() else max(stretches)
     return min(bears, STRETCH), told, clamps(simulation)
 
 
