@@ -1,16 +1,17 @@
 """Antialiased discs and lines into a float32 image [height, width, 3].
 
 The center of the pixel in column i of row j is the point (i, j).  A shape is mixed in by its
-coverage c of the pixel, image = (1 - c) image + c color, one shape after the other.  Bands of rows
-are drawn side by side, in each the shapes in their order and all in f32, so that the bytes depend
-neither on the threads nor on the precision of the run.  In a kernel a float literal has the
-precision of the run, and so has a quotient with an integer."""
+coverage c of the pixel, image = (1 - c) image + c color, one shape after the other. Bands of rows
+are drawn side by side (each by one worker, kernels/blocks.py), in each the shapes in their order
+and all in f32, so that the bytes depend neither on the threads nor on the precision of the run. In
+a kernel a float literal has the precision of the run, and so has a quotient with an integer."""
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import taichi as ti
 
+from ..kernels.blocks import GATE
 from ..runtime import Template
 
 if TYPE_CHECKING:
@@ -57,19 +58,21 @@ def fill_discs(
     radius: Scalars,
     color: Vectors,
 ):
-    for band in range((height + BAND - 1) // BAND):
-        for p in range(radius.shape[0]):
-            x, y, r = column[p], row[p], radius[p]
-            reach = r + ti.f32(0.5)
-            top, bottom = row_pixel(y - reach, band, height), row_pixel(y + reach, band, height)
-            if top < bottom:
-                c = ti.Vector([color[p, 0], color[p, 1], color[p, 2]])
-                left, right = pixel(x - reach, width), pixel(x + reach, width)
-                for j in range(top, bottom):
-                    for i in range(left, right):
-                        dx, dy = i - x, j - y
-                        coverage = ti.math.clamp(reach - ti.sqrt(dx * dx + dy * dy), 0, 1)
-                        mix(pixels, j * width + i, c, coverage)
+    for counter in range(GATE * ((height + BAND - 1) // BAND)):
+        if counter % GATE == 0:
+            band = counter // GATE
+            for p in range(radius.shape[0]):
+                x, y, r = column[p], row[p], radius[p]
+                reach = r + ti.f32(0.5)
+                top, bottom = row_pixel(y - reach, band, height), row_pixel(y + reach, band, height)
+                if top < bottom:
+                    c = ti.Vector([color[p, 0], color[p, 1], color[p, 2]])
+                    left, right = pixel(x - reach, width), pixel(x + reach, width)
+                    for j in range(top, bottom):
+                        for i in range(left, right):
+                            dx, dy = i - x, j - y
+                            coverage = ti.math.clamp(reach - ti.sqrt(dx * dx + dy * dy), 0, 1)
+                            mix(pixels, j * width + i, c, coverage)
 
 
 @ti.kernel
@@ -82,34 +85,39 @@ def stroke_lines(
     thickness: Single,
     opacity: Single,
 ):
-    for band in range((height + BAND - 1) // BAND):
-        for line in range(ends.shape[0]):
-            u0, v0 = ends[line, 0], ends[line, 1]  # along columns and rows; if steep, reversed
-            du, dv = ends[line, 2] - u0, ends[line, 3] - v0
-            c = ti.Vector([color[0], color[1], color[2]])
-            steep = abs(dv) > abs(du)
-            if steep:
-                u0, v0, du, dv = v0, u0, dv, du
-            if du < 0:
-                u0, v0, du, dv = u0 + du, v0 + dv, -du, -dv
-            reach = (thickness + 1) * ti.f32(0.5)
-            square = ti.max(du * du + dv * dv, 1)
-            start, end = u0 - reach, u0 + du + reach
-            first, last = pixel(start, width), pixel(end, width)
-            if steep:
-                first, last = row_pixel(start, band, height), row_pixel(end, band, height)
-            for u in range(first, last):
-                middle = v0 + dv * ti.math.clamp((u - u0) / ti.max(du, 1), 0, 1)
-                low, high = middle - 2 * reach, middle + 2 * reach
-                lowest, highest = pixel(low, width), pixel(high, width)
-                if not steep:
-                    lowest, highest = row_pixel(low, band, height), row_pixel(high, band, height)
-                for v in range(lowest, highest):
-                    along = ti.math.clamp(((u - u0) * du + (v - v0) * dv) / square, 0, 1)
-                    x, y = u - u0 - along * du, v - v0 - along * dv
-                    coverage = ti.math.clamp(reach - ti.sqrt(x * x + y * y), 0, 1)
-                    at = ti.select(steep, u * width + v, v * width + u)
-                    mix(pixels, at, c, coverage * opacity)
+    for counter in range(GATE * ((height + BAND - 1) // BAND)):
+        if counter % GATE == 0:
+            band = counter // GATE
+            for line in range(ends.shape[0]):
+                u0, v0 = ends[line, 0], ends[line, 1]  # along columns and rows; if steep, reversed
+                du, dv = ends[line, 2] - u0, ends[line, 3] - v0
+                c = ti.Vector([color[0], color[1], color[2]])
+                steep = abs(dv) > abs(du)
+                if steep:
+                    u0, v0, du, dv = v0, u0, dv, du
+                if du < 0:
+                    u0, v0, du, dv = u0 + du, v0 + dv, -du, -dv
+                reach = (thickness + 1) * ti.f32(0.5)
+                square = ti.max(du * du + dv * dv, 1)
+                start, end = u0 - reach, u0 + du + reach
+                first, last = pixel(start, width), pixel(end, width)
+                if steep:
+                    first, last = row_pixel(start, band, height), row_pixel(end, band, height)
+                for u in range(first, last):
+                    middle = v0 + dv * ti.math.clamp((u - u0) / ti.max(du, 1), 0, 1)
+                    low, high = middle - 2 * reach, middle + 2 * reach
+                    lowest, highest = pixel(low, width), pixel(high, width)
+                    if not steep:
+                        lowest, highest = (
+                            row_pixel(low, band, height),
+                            row_pixel(high, band, height),
+                        )
+                    for v in range(lowest, highest):
+                        along = ti.math.clamp(((u - u0) * du + (v - v0) * dv) / square, 0, 1)
+                        x, y = u - u0 - along * du, v - v0 - along * dv
+                        coverage = ti.math.clamp(reach - ti.sqrt(x * x + y * y), 0, 1)
+                        at = ti.select(steep, u * width + v, v * width + u)
+                        mix(pixels, at, c, coverage * opacity)
 
 
 @ti.kernel

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import taichi as ti
 
+from ..kernels.blocks import GATE
 from ..runtime import Template
 from .rasterizer import (
     BAND,
@@ -100,33 +101,39 @@ def fill_spheres(
 ):
     """`layer`: light and 1 - T of each pixel; `tiles`: how many open pixels each has."""
     per_row = (width + TILE - 1) // TILE
-    for band in range((height + BAND - 1) // BAND):
-        for p in range(radius.shape[0]):
-            x, y, r = column[p], row[p], radius[p]
-            reach, per_radius = r + ti.f32(0.5), ti.f32(1.0) / r
-            top, bottom = row_pixel(y - reach, band, height), row_pixel(y + reach, band, height)
-            left, right = pixel(x - reach, width), pixel(x + reach, width)
-            if top < bottom and left < right and is_open(tiles, per_row, top, bottom, left, right):
-                c = ti.Vector([color[p, 0], color[p, 1], color[p, 2]])
-                for j in range(top, bottom):
-                    for i in range(left, right):
-                        at = j * width + i
-                        T = 1 - layer[at].w
-                        dx, dy = (i - x) * per_radius, (j - y) * per_radius
-                        square = dx * dx + dy * dy
-                        if T > 0 and r * (ti.sqrt(square) - 1) < ti.f32(0.5):
-                            z = ti.sqrt(ti.max(0, 1 - square))
-                            bright = ti.min(c * sphere_shade(dx, dy, z), 1)
-                            part = T * ti.math.clamp(reach - r * ti.sqrt(square), 0, 1)
-                            closed = layer[at].w + part
-                            if T - part < ti.f32(CLOSED):
-                                part, closed = T, ti.f32(1.0)
-                                tile = j // TILE * per_row + i // TILE
-                                tiles[tile] = tiles[tile] - 1
-                            light = layer[at].xyz + part * bright
-                            layer[at] = ti.Vector([light.x, light.y, light.z, closed])
-                            # "a = a + b" is never atomic
-                            depth[at] = depth[at] + part * (toward[p] + r * z)
+    for counter in range(GATE * ((height + BAND - 1) // BAND)):
+        if counter % GATE == 0:
+            band = counter // GATE
+            for p in range(radius.shape[0]):
+                x, y, r = column[p], row[p], radius[p]
+                reach, per_radius = r + ti.f32(0.5), ti.f32(1.0) / r
+                top, bottom = row_pixel(y - reach, band, height), row_pixel(y + reach, band, height)
+                left, right = pixel(x - reach, width), pixel(x + reach, width)
+                if (
+                    top < bottom
+                    and left < right
+                    and is_open(tiles, per_row, top, bottom, left, right)
+                ):
+                    c = ti.Vector([color[p, 0], color[p, 1], color[p, 2]])
+                    for j in range(top, bottom):
+                        for i in range(left, right):
+                            at = j * width + i
+                            T = 1 - layer[at].w
+                            dx, dy = (i - x) * per_radius, (j - y) * per_radius
+                            square = dx * dx + dy * dy
+                            if T > 0 and r * (ti.sqrt(square) - 1) < ti.f32(0.5):
+                                z = ti.sqrt(ti.max(0, 1 - square))
+                                bright = ti.min(c * sphere_shade(dx, dy, z), 1)
+                                part = T * ti.math.clamp(reach - r * ti.sqrt(square), 0, 1)
+                                closed = layer[at].w + part
+                                if T - part < ti.f32(CLOSED):
+                                    part, closed = T, ti.f32(1.0)
+                                    tile = j // TILE * per_row + i // TILE
+                                    tiles[tile] = tiles[tile] - 1
+                                light = layer[at].xyz + part * bright
+                                layer[at] = ti.Vector([light.x, light.y, light.z, closed])
+                                # "a = a + b" is never atomic
+                                depth[at] = depth[at] + part * (toward[p] + r * z)
 
 
 @ti.func
