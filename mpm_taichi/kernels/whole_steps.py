@@ -167,8 +167,7 @@ def whole_steps(
     tally=NoTally,
 ):  # fmt: skip
     """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
-    is lost or the next step is no number.  On return the clock says
-    how far that was."""
+    is lost or the next step is no number.  On return the clock says how far that was."""
     numbers = np.array([
         clock.time, clock.dt, clock.target, clock.after, clock.last, clock.drift,
         clock.growth_left, 0, 0, 1, 1, clock.motion.speed, clock.motion.rate,

@@ -1,9 +1,9 @@
 """Antialiased discs and lines into a float32 image [height, width, 3].
 
 The center of the pixel in column i of row j is the point (i, j).  A shape is mixed in by its
-coverage c of the pixel, image = (1 - c) image + c color, one shape after the other. Bands of rows
+coverage c of the pixel, image = (1 - c) image + c color, one shape after the other.  Bands of rows
 are drawn side by side (each by one worker, kernels/blocks.py), in each the shapes in their order
-and all in f32, so that the bytes depend neither on the threads nor on the precision of the run. In
+and all in f32, so that the bytes depend neither on the threads nor on the precision of the run.  In
 a kernel a float literal has the precision of the run, and so has a quotient with an integer."""
 
 from typing import TYPE_CHECKING, Any

@@ -7,7 +7,6 @@ import os
 import random
 import shutil
 from dataclasses import replace
-from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -16,6 +15,7 @@ from PIL import Image
 from mpm_taichi.player import player
 from mpm_taichi.recording import Recording
 from mpm_taichi.renderers.camera import DISTANCE, Camera, corners, orientation
+from tests.missing import missing
 from tests.recorded_run import turning_disk, write_run
 
 FLAGS = (
@@ -26,12 +26,6 @@ LEFT, RIGHT, TOP, BOTTOM = 30, 30, 20, 84
 """Pixels around the domain (mpm_taichi/player/template/camera.js)."""
 
 FRAMES = 21
-
-
-def missing(what: str) -> NoReturn:
-    if os.environ.get("CI"):
-        pytest.fail(f"{what} is not installed")
-    pytest.skip(f"{what} is not installed")
 
 
 @pytest.fixture(scope="module")

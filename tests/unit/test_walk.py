@@ -172,4 +172,4 @@ def test_3d_is_refused():
         scene = load_scene(LATTICE.with_name("two_balls.yaml"))
 
     with pytest.raises(InputError, match="2D only"):
-        Walk(Cube())  # type: ignore[arg-type]
+        Walk(Cube())  # pyright: ignore[reportArgumentType]

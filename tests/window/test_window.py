@@ -3,7 +3,6 @@
 Needs a Vulkan driver, `xvfb` and `xdotool`; without them these tests are skipped, but not in CI."""
 
 import json
-import os
 import queue
 import shutil
 import signal
@@ -12,7 +11,7 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,17 +22,12 @@ from mpm_taichi.window.layout import layout_of
 from mpm_taichi.window.looks import COLORS
 from mpm_taichi.window.viewpoint import Viewpoint
 from tests.command_line import ROOT, environment, in_words, mpm_taichi
+from tests.missing import missing
 from tests.window.desks import SCENE, SIZE
 
 LAVAPIPE = Path("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json")
 PATIENCE = 90.0
 """Seconds for a window to open, and for a click to have its effect: other work may be going on."""
-
-
-def missing(what: str) -> NoReturn:
-    if os.environ.get("CI"):
-        pytest.fail(f"{what} is not installed")
-    pytest.skip(f"{what} is not installed")
 
 
 @pytest.fixture(scope="module")
