@@ -133,7 +133,7 @@ class Attempts:
             before.restore(self.checkpoint.meta["simulation"], self.checkpoint.arrays)
             before.shorten_steps(self.reduction)
         if number == MOST_RETRIES:
-            self.simulation.guard_steps = 1  # so that the first particle is named
+            self.simulation.lookout.guard_steps = 1  # so that the first particle is named
         place = f"step {self.simulation.step_count}" if self.checkpoint else "the start"
         self.console.print(
             f"{self.failures[-1]['error']}\nretry {number} of {MOST_RETRIES}: from {place}, with "

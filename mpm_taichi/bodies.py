@@ -5,6 +5,7 @@ import numpy as np
 from .errors import InputError
 from .particles import BodyPoints
 from .seeding import refuse_outside
+from .time_step import Motion
 
 
 def body_points(scene, index, X, V0) -> BodyPoints:
@@ -33,3 +34,27 @@ def body_points(scene, index, X, V0) -> BodyPoints:
             )
         L = L @ np.linalg.inv(F)
     return BodyPoints(material, x, v, V0, X, H, L if L.any() else None)
+
+
+def first_motion(bodies: list[BodyPoints]) -> Motion:
+    """Of all bodies at the start."""
+    speeds = np.concatenate([np.linalg.norm(body.v, axis=1) for body in bodies])
+    rates = np.concatenate([np.linalg.norm(body.velocity_gradient, axis=(1, 2)) for body in bodies])
+    fastest, steepest = int(speeds.argmax()), int(rates.argmax())
+    return Motion(
+        float(speeds[fastest]), float(rates[steepest]), fastest=fastest, steepest=steepest
+    )
+
+
+def half_width(bodies: list[BodyPoints], scene) -> float:
+    """Of the smallest particle [cells].  InputError where a basis that takes particles as extended
+    would reach further than its stencil."""
+    edges = np.concatenate([body.V0 for body in bodies]) ** (1 / scene.dimension)
+    half = 0.5 * edges / scene.cell_size
+    basis = scene.method.basis_class
+    if basis.extended and half.max() > 0.5 * (1 + 1e-9):
+        raise InputError(
+            f"method.basis: {basis.name} takes particles up to a cell wide, and one is "
+            f"{2 * half.max():.3g} cells wide: take more particles, or fewer, larger cells"
+        )
+    return float(half.min())

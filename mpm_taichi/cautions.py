@@ -15,16 +15,16 @@ def cautions(simulation) -> dict[str, int]:
     cut = simulation.solver.grid.cut[None]
     if cut:
         found["nodes below the mass cut-off, taken as empty (counted each step)"] = cut
-    if simulation.slivers:
+    if simulation.lookout.slivers:
         cure = "basis: quadratic, or stress_update: musl, has none"
         words = f"nodes too light for the step (looked for every {EVERY_STEPS} steps; {cure})"
-        found[words] = simulation.slivers
-    if simulation.parting > UNEVEN * simulation.ranges[-1]:
+        found[words] = simulation.lookout.slivers
+    if simulation.lookout.parting > UNEVEN * simulation.ranges[-1]:
         words = (
             "particles stretched so far that they may lose their neighbors (numerical fracture), "
             "most at an output; more particles per cell hold longer"
         )
-        found[words] = simulation.parting
+        found[words] = simulation.lookout.parting
     brought_in = simulation.solver.particles.brought_in[None]
     if brought_in and simulation.scene.domain.outside == "delete":
         gone = simulation.start_mass - float(simulation.body_mass.sum())

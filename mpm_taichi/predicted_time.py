@@ -75,7 +75,7 @@ def predict(simulation, patience: float = PATIENCE) -> Prediction | None:
     with TemporaryDirectory() as folder:
         attempts = Attempts(simulation, Path(folder), Console(quiet=True))
         watch = Stopwatch(patience)
-        simulation.guard()  # compiles what a run will need later
+        simulation.lookout.at_particles()  # compiles what a run will need later
         with attempts.recording():
             with suppress(Enough):
                 simulation.run([*attempts.recorders, watch])

@@ -32,7 +32,7 @@ def replay(folder: Path, console) -> int:
         checkpoint = checkpoints.load(folder / "trouble" / Path(start).name)
         simulation.restore(checkpoint.meta["simulation"], checkpoint.arrays)
         simulation.shorten_steps(reduction)
-    simulation.guard_steps = 1
+    simulation.lookout.guard_steps = 1
     console.print(
         f"from t = {simulation.time:.6g} s, step {simulation.step_count}, toward the failure at "
         f"t = {told['time']:.6g} s, step {told['step']}",

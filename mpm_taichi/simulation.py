@@ -1,6 +1,5 @@
 """A run: clock, time step, schedules, recorders.  Recorders only read a Simulation."""
 
-import os
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
@@ -9,14 +8,13 @@ import numpy as np
 
 from . import runtime, stages
 from .at_outputs import as_recorder
-from .bodies import body_points
+from .bodies import body_points, first_motion, half_width
 from .cautions import cautions
-from .errors import InputError, MotionError, RunError
-from .kernels import slivers
-from .kernels.guard import guard
+from .errors import InputError, RunError
 from .kernels.sums import sums
 from .kernels.whole_steps import Clock
 from .ledger import begin_ledger, ledger
+from .lookout import Lookout
 from .memory import planned_memory, refuse_too_much
 from .notebook import picture
 from .scene import Scene
@@ -24,13 +22,9 @@ from .schedules import EverySeconds, even_step
 from .seeding import expected_counts, seed
 from .snapshot import Snapshot, take_snapshot
 from .solver import Solver
-from .time_step import Motion, TimeStep
-from .trouble import gone_outside, gone_wrong
-
-PARTICLES_PER_THREAD = 2048
-"""Below this a second thread costs more in hand-offs than it saves."""
-
-MOST_THREADS = 1024
+from .threads import threads as worthwhile
+from .time_step import TimeStep
+from .trouble import gone_wrong
 
 MOST_TOGETHER = 64
 """Steps that `advance` takes where nobody asks to see any; and the most in one launch."""
@@ -38,16 +32,7 @@ MOST_TOGETHER = 64
 PARTICLE_STEPS = 100_000
 """Of one launch, some 10 ms: a signal waits for its end."""
 
-GUARD_STEPS = 32
-"""At most, between two looks at all particles (kernels/guard.py), which so cost 1 % of the run."""
-
-COLLAPSE = 1e-6
-"""An automatic step shorter than this part of the first one ends the run."""
-
-CLOCK = (
-    "time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started", "slivers",
-    "sliver_look", "parting",
-)  # fmt: skip
+CLOCK = ("time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started")
 """Of a Simulation, in a checkpoint."""
 
 
@@ -74,11 +59,7 @@ class Simulation:
         refuse_too_much(scene, counts, device, self.precision)
         self.memory = planned_memory(scene, counts, self.precision)
         self.ranges = np.cumsum([0, *counts])
-        if threads and device != "cpu":
-            raise InputError(f"--threads: is for --device cpu ({device} has its own)")
-        self.threads = threads or self._worthwhile_threads()
-        if self.threads > MOST_THREADS:
-            raise InputError(f"--threads: at most {MOST_THREADS} (got {self.threads})")
+        self.threads = worthwhile(threads, device, int(self.ranges[-1]))
         runtime.start(device, self.precision, self.threads, int(self.ranges[-1]))
         self._ends = runtime.ends
         stages.reset()
@@ -86,16 +67,9 @@ class Simulation:
         self.initial_position = np.concatenate([body.undeformed for body in bodies])
         method = scene.method
         given = None if scene.time.step == "auto" else scene.time.step
-        speeds = np.concatenate([np.linalg.norm(body.v, axis=1) for body in bodies])
-        rates = np.concatenate(
-            [np.linalg.norm(body.velocity_gradient, axis=(1, 2)) for body in bodies]
-        )
-        fastest, steepest = int(speeds.argmax()), int(rates.argmax())
-        motion = Motion(
-            float(speeds[fastest]), float(rates[steepest]), fastest=fastest, steepest=steepest
-        )
+        motion = first_motion(bodies)
         self.time_step = TimeStep(
-            scene, given, scene.time.safety, self._half_width(bodies), motion, scene.time.enforce
+            scene, given, scene.time.safety, half_width(bodies, scene), motion, scene.time.enforce
         )
         self.time_step.reduction = reduction
         try:
@@ -128,9 +102,7 @@ class Simulation:
         self.last_dt = 0.0
         self.dt = self._fitting(self.time_step.begin(), self.time)
         self.first_dt = self.dt
-        self.guard_steps, self.guarded = GUARD_STEPS, 0
-        self.slivers, self.sliver_look = 0, 0  # their count, and the step of the next look
-        self.parting = 0  # particles that are about to, most at an output
+        self.lookout = Lookout(self, self._bring_in)
         self.is_started = False  # recorders have seen the start
         self.is_amid_step = False
         self.stop_asked = False  # `advance` returns after the step or launch that it is at
@@ -145,25 +117,6 @@ class Simulation:
     def _rounded(self, values):
         """Of all bodies one after the other, in the precision of the run, as float64."""
         return np.concatenate(list(values)).astype(runtime.real_type()).astype(float)
-
-    def _half_width(self, bodies):
-        """Of the smallest particle [cells].  InputError where a basis that takes particles as
-        extended would reach further than its stencil."""
-        edges = np.concatenate([body.V0 for body in bodies]) ** (1 / self.scene.dimension)
-        half = 0.5 * edges / self.scene.cell_size
-        basis = self.scene.method.basis_class
-        if basis.extended and half.max() > 0.5 * (1 + 1e-9):
-            raise InputError(
-                f"method.basis: {basis.name} takes particles up to a cell wide, and one is "
-                f"{2 * half.max():.3g} cells wide: take more particles, or fewer, larger cells"
-            )
-        return float(half.min())
-
-    def _worthwhile_threads(self):
-        if self.device != "cpu":
-            return 1
-        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-        return int(max(1, min(cores or 1, self.ranges[-1] // PARTICLES_PER_THREAD)))
 
     def _fitting(self, longest, time):
         """A step from `time` on that lands on the next output."""
@@ -228,9 +181,9 @@ class Simulation:
     def _settle(self, landing):
         """After a step or a launch of several."""
         self._forget_moment()
-        self._look_after()
+        self.lookout.after_step()
         if landing:
-            self.look_for_parting()
+            self.lookout.at_output()
         self.output_count += landing
 
     def _forget_moment(self):
@@ -238,44 +191,14 @@ class Simulation:
         self.__dict__.pop("sums", None)
         self.__dict__.pop("ledger", None)
 
-    def _look_after(self):
-        """MotionError where a particle is lost or the step has collapsed, and, looked for now and
-        then, where numbers are none."""
-        if self.solver.particles.lost[None] < self.ranges[-1]:
-            self._settle_outside()
-        if self.time_step.given is None and self.dt < COLLAPSE * self.first_dt:
-            raise MotionError(
-                f"t = {self.time:.6g} s, step {self.step_count}: the time step has fallen from "
-                f"{self.first_dt:.3g} to {self.dt:.3g} s: the run has blown up"
-            )
-        if self.step_count - self.guarded >= self.guard_steps:
-            self.guard()
-
-    def _settle_outside(self):
-        """What the scene says of particles outside its domain."""
-        rule = self.scene.domain.outside
-        if rule == "stop":
-            raise gone_outside(self)
-        self.guard()  # a position that is no number is nowhere
-        self.solver.bring_in(rule == "delete", 0.5 * self.lightest)
+    def _bring_in(self, deletes):
+        """Particles outside the domain."""
+        self.solver.bring_in(deletes, 0.5 * self.lightest)
         self._forget_masses()
 
     def _forget_masses(self):
         for name in ("_constant", "body_mass"):
             self.__dict__.pop(name, None)
-
-    def guard(self) -> None:
-        """MotionError where a particle's numbers are none, or no longer those of matter."""
-        self.guarded = self.step_count
-        guard(self.solver.particles)
-        bad = self.solver.particles.bad[None]
-        if bad < self.ranges[-1]:
-            raise gone_wrong(self, bad)
-
-    def look_for_parting(self) -> None:
-        """At an output: how many particles are about to lose their neighbors."""
-        self.guard()
-        self.parting = max(self.parting, self.solver.particles.parting[None])
 
     @property
     def _lands(self) -> bool:
@@ -289,7 +212,7 @@ class Simulation:
         return landing
 
     def _stages(self) -> Iterator[str]:
-        self._look_for_slivers()
+        self.lookout.before_step()
         dt = self.dt
         time = self.next_output if self._lands else self.time + dt
         dt_next = self._fitting(self.time_step.choose(), time)
@@ -299,7 +222,7 @@ class Simulation:
         self._note_steps(time, [dt], [self.time_step.code])
 
     def _take_whole_steps(self, most) -> bool:
-        self._look_for_slivers()
+        self.lookout.before_step()
         more = self.output_count + 1 < self.outputs.count
         rule = self.time_step
         clock = Clock(
@@ -308,9 +231,7 @@ class Simulation:
             rule.last, rule.motion, self.solver.drift, rule.pace, rule.growth_left,
         )  # fmt: skip
         patience = max(1, PARTICLE_STEPS // self.ranges[-1])
-        together = min(most, MOST_TOGETHER, patience, self.guard_steps)
-        if rule.fears_slivers:
-            together = min(together, self.sliver_look - self.step_count)
+        together = min(most, MOST_TOGETHER, patience, self.lookout.patience)
         self.solver.take_whole_steps(clock, int(together))
         self.dt = clock.dt
         rule.take_up(clock)
@@ -319,12 +240,6 @@ class Simulation:
         if not clock.is_good:
             self._fitting(clock.last, clock.time)  # says what is wrong with it
         return landing
-
-    def _look_for_slivers(self):
-        """If that is due, and before a step, which clears what this leaves at the nodes."""
-        if self.step_count >= self.sliver_look and self.time_step.fears_slivers:
-            self.slivers += self.solver.slivers(self.dt)
-            self.sliver_look = self.step_count + slivers.EVERY_STEPS
 
     def _note_steps(self, time, lengths, bounds):
         self.time, self.step_count, self.last_dt = time, self.step_count + len(lengths), lengths[-1]
@@ -357,8 +272,8 @@ class Simulation:
     def state(self) -> dict[str, Any]:
         """The numbers of a checkpoint; its fields are `solver.stored`."""
         clock = {name: getattr(self, name) for name in CLOCK}
-        parts = {"time_step": self.time_step.state(), "solver": self.solver.state()}
-        return clock | parts
+        parts = {"time_step": self.time_step, "lookout": self.lookout, "solver": self.solver}
+        return clock | {name: part.state() for name, part in parts.items()}
 
     def restore(self, state: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
         """Go on from a checkpoint of the same scene, version and precision."""
@@ -366,10 +281,11 @@ class Simulation:
             setattr(self, name, state[name])
         self.is_amid_step = False
         self.time_step.restore(state["time_step"])
+        self.lookout.restore(state["lookout"])
         self.solver.restore(state["solver"], arrays)
         self._forget_moment()
         self._forget_masses()
-        self.guard()
+        self.lookout.at_particles()
 
     def shorten_steps(self, reduction: float) -> None:
         """From the second one on: the impulse of the first is with the particles already."""

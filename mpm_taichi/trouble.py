@@ -100,9 +100,9 @@ def _when(simulation, particle):
 
 def _advice(simulation):
     limit, longest = simulation.limit, simulation.time_step.longest
-    if simulation.slivers:
+    if simulation.lookout.slivers:
         return (
-            f"{simulation.slivers} times a node was too light for the step, which lets the "
+            f"{simulation.lookout.slivers} times a node was too light for the step, which lets the "
             f"{simulation.scene.method.basis} basis with stress_update: usl blow up: take basis: "
             "quadratic, or stress_update: musl."
         )

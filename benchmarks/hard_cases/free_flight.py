@@ -62,7 +62,7 @@ def measure(scheme, draw: Draw) -> Found:
         for now in simulation.frames():
             strain = max(strain, np.abs(now.snapshot.deformation_gradient - np.eye(dim)).max())
     except RunError:
-        told = Figure("slivers told", simulation.slivers, 1, at_least=True)
+        told = Figure("slivers told", simulation.lookout.slivers, 1, at_least=True)
         return Found([Figure("finishes", 0, 1, at_least=True), told])
     off = np.linalg.norm(centers() / mass - start - v * simulation.time, axis=1).max()
     rounding = simulation.step_count * U[scheme.precision]

@@ -104,7 +104,7 @@ def in_log(scheme, shifts, random):
         crush.see(now)
     figures, counts = crush.figures("ln J"), clamps(simulation)
     put(simulation, 2, random)
-    simulation.guard_steps = 1
+    simulation.lookout.guard_steps = 1
     first = 2 * COUNT + np.flatnonzero(np.linalg.det(random + np.eye(2)) <= 0)[0]
     try:
         simulation.step()

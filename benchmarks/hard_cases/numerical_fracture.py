@@ -101,7 +101,7 @@ def pulled(scheme, place, axis, draw):
             between = [values[edges[1]].mean() - values[edges[0]].mean() for values in (x, X)]
             stretches.append(between[0] / between[1])
             forces.append(np.mean(pulls))
-            if np.isinf(told) and simulation.parting:
+            if np.isinf(told) and simulation.lookout.parting:
                 told = stretches[-1]
             law = mu * (stretches[-1] - 1 / stretches[-1])
             is_broken = stretches[-1] > SEEN_FROM and np.mean(forces[-MEAN:]) < 0.5 * law

@@ -71,7 +71,7 @@ def swinging(scheme, courant, axis, upwards, draw):
                 break
     except RunError:
         largest = np.inf
-    return largest, simulation.slivers, clamps(simulation)
+    return largest, simulation.lookout.slivers, clamps(simulation)
 
 
 def energy(simulation) -> float:

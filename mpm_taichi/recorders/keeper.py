@@ -30,7 +30,7 @@ class Keeper:
             return
         due = self.interval or max(INTERVAL, LEAST_PART * self.cost)
         if time.perf_counter() - self.last >= due:
-            simulation.guard()  # what an attempt goes back to has to be good
+            simulation.lookout.at_particles()  # what an attempt goes back to has to be good
             self.save(simulation)
 
     def save(self, simulation) -> Path:

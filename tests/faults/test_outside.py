@@ -100,7 +100,7 @@ def test_what_is_put_in_is_found(precision, rng):
         spoiled[place].flat[rng.integers(spoiled[place].size)] = value
         field.from_numpy(spoiled)
         with pytest.raises(MotionError, match=rf"particle {particle} \(") as found:
-            simulation.guard()
+            simulation.lookout.at_particles()
         assert found.value.particle == particle
         field.from_numpy(whole)
-        simulation.guard()
+        simulation.lookout.at_particles()

@@ -235,7 +235,7 @@ def test_nodes_too_light_are_told():
         simulation = Simulation(scene(f"bodies[0].displacement=[{shift},{shift}]"))
         simulation.step()
         found = [words for words in simulation.warnings() if "too light" in words]
-        assert (len(found), simulation.slivers > 0) == (told, told)
+        assert (len(found), simulation.lookout.slivers > 0) == (told, told)
         assert all("basis: quadratic, or stress_update: musl" in words for words in found)
 
 
@@ -244,8 +244,8 @@ def test_particles_that_lose_their_neighbors_are_told():
     the 0.6 at which hat functions are warned of; by 1.1 they are not."""
     for stretch, expected in ((0.7, 208), (0.1, 0)):
         simulation = Simulation(scene(f"bodies[0].displacement=[{stretch}*X,0]"))
-        simulation.look_for_parting()
-        assert simulation.parting == expected
+        simulation.lookout.at_output()
+        assert simulation.lookout.parting == expected
         assert any("numerical fracture" in words for words in simulation.warnings()) == (
             expected > 0
         )
