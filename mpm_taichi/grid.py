@@ -11,6 +11,7 @@ from .errors import InputError
 from .fields import FieldPlan
 from .kernels.blocks import BLOCK, CHUNK, GATE
 from .kernels.fill import fill
+from .kernels.tiles import COLORS, MANY
 
 PAD = 4  # nodes
 
@@ -26,9 +27,10 @@ class NodeLayout:
     """Where nodes lie in memory, and the fields that a grid of them has, by name.
 
     The box [0, cells] has ghost nodes around it, as wide as the stencil.  `groups` is the number of
-    materials; with `increment`, or `audited`, each node has a second record."""
+    materials, `particles` that of particles; with `increment`, or `audited`, each node has a second
+    record."""
 
-    def __init__(self, cells, basis, groups, increment, audited=False):
+    def __init__(self, cells, basis, groups, particles, increment, audited=False):
         self.dim, self.cells = len(cells), tuple(cells)
         self.increment, self.audited = increment, audited
         self.ghost = self.support = basis.support
@@ -53,17 +55,21 @@ class NodeLayout:
                 f"domain.cells: {' x '.join(map(str, cells))} cells need {length:.2e} nodes, more "
                 "than the 2^31 that an index can count: take fewer, larger cells"
             )
-        # Slabs of fixed width along axis 0, so that results do not depend on the number of threads.
-        # Two slabs of one color share no node while particles are within a cell of where the sort
-        # found them.
+        # Tiles of fixed width (kernels/tiles.py): two of one color share no node while particles
+        # are within a cell of where the sort found them.
         self.slab = basis.support + 1
         self.slabs = 2 * -(-self.extent[0] // (2 * self.slab))
+        self.strip = self.slab if self.dim == 3 and particles >= MANY else self.extent[1]
+        self.strips = -(-self.extent[1] // self.strip)
+        tiles, self.segments = self.slabs * self.strips, self.slabs * self.slab * self.strips
         self.chunks = -(-self.nodes // CHUNK)
         whole_chunks = FieldPlan(int, (), ((self.mask + 1) // CHUNK,))
         self.fields = {
             "node": FieldPlan(float, (4,), (length,)),
-            "start": FieldPlan(int, (), (groups, self.slabs + 1)),
-            "share": FieldPlan(float, (), (self.slabs,)),
+            "start": FieldPlan(int, (), (groups, self.segments + 1)),
+            "tile": FieldPlan(int, (), (tiles,)),
+            "tile_begin": FieldPlan(int, (), (COLORS + 1,)),
+            "share": FieldPlan(float, (), (tiles,)),
             "count": FieldPlan(int, (), (self.mask + 1,)),
             "occupied": whole_chunks,
             "reached": whole_chunks,
@@ -82,11 +88,12 @@ class Grid(NodeLayout):
     themselves."""
 
     def __init__(
-        self, cells, dx, basis, groups, increment, mass_cutoff, walls, periodic, threads, atomic,
-        audited=False,
+        self, cells, dx, basis, groups, particles, increment, mass_cutoff, walls, periodic, threads,
+        atomic, audited=False,
     ):  # fmt: skip
-        super().__init__(cells, basis, groups, increment, audited)
+        super().__init__(cells, basis, groups, particles, increment, audited)
         self.dx, self.threads, self.atomic = dx, threads, atomic
+        self.colors = 1 if atomic else COLORS if self.strips > 1 else 2
         # See kernels/blocks.py.
         self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
         self.periodic = tuple(periodic)
@@ -96,8 +103,10 @@ class Grid(NodeLayout):
         self.lines = list(product(range(basis.support), repeat=self.dim - 1))
         fields = {name: plan.field() for name, plan in self.fields.items()}
         self.node = fields["node"]
-        self.start = fields["start"]  # first particle [group, slab]
-        self.share = fields["share"]  # part of all particles before a slab's middle
+        self.start = fields["start"]  # first particle [group, segment]
+        self.tile = fields["tile"]  # first segment, of tiles with particles, by color
+        self.tile_begin = fields["tile_begin"]  # in that list [color]
+        self.share = fields["share"]  # part of the particles of a color before a tile's middle
         self.count = fields["count"]  # of the sort, 0 outside of it
         # Chunks of nodes: those where stencils begin, those that particles can reach, their list.
         self.occupied, self.reached = fields["occupied"], fields["reached"]

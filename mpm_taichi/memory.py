@@ -82,7 +82,7 @@ def planned_memory(scene, counts, precision, cells=None) -> Memory:
             name = f"{materials[mine[0]].type}.{word}"
             plans[name] = plans[name + SCRATCH] = plan
     grid = NodeLayout(
-        cells or scene.domain.cells, method.basis_class, len(set(materials)),
+        cells or scene.domain.cells, method.basis_class, len(set(materials)), count,
         method.transfer_class.increment, scene.output.audit,
     )  # fmt: skip
     of_nodes = dict(grid.fields)

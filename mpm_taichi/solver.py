@@ -61,7 +61,7 @@ class Solver:
             audited=audited,
         )  # fmt: skip
         self.grid = Grid(
-            cells, dx, basis, self.particles.group_count, transfer.increment,
+            cells, dx, basis, self.particles.group_count, self.particles.count, transfer.increment,
             self._mass_cutoff(mass_cutoff, bodies, cells), walls, periodic, threads, atomic,
             audited,
         )  # fmt: skip

@@ -5,6 +5,7 @@ import taichi as ti
 from ..runtime import Template
 from ..stages import stage
 from .stencil import index, line_slope, line_weight, moment, offset, weigh
+from .tiles import takes
 
 
 @ti.func
@@ -96,14 +97,14 @@ def scatter_share(
     particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
     color, worker, workers,
 ):  # fmt: skip
-    """The slabs of one color whose middle lies in the worker's share of all particles."""
-    for pair in range(grid.slabs // 2):
-        slab = 2 * pair + color
-        # In f32 the share of the last slab may round up to 1.
-        if ti.min(int(grid.share[slab] * workers), workers - 1) == worker:
-            for g in range(particles.group_count):
-                for p in range(grid.start[g, slab], grid.start[g, slab + 1]):
-                    scatter_particle(p, particles, grid, basis, transfer, what)
+    """The worker's tiles of one color."""
+    for tile in range(grid.tile_begin[color], grid.tile_begin[color + 1]):
+        if takes(worker, workers, tile, grid):
+            for plane in range(grid.slab):
+                s = grid.tile[tile] + plane * grid.strips
+                for g in range(particles.group_count):
+                    for p in range(grid.start[g, s], grid.start[g, s + 1]):
+                        scatter_particle(p, particles, grid, basis, transfer, what)
 
 
 @ti.kernel
@@ -111,7 +112,7 @@ def scatter_particles(
     particles: Template, grid: Template, basis: Template, transfer: Template, what: Template,
     color: int, workers: int,
 ):  # fmt: skip
-    """On a CPU the slabs of one color, which share no node."""
+    """On a CPU the tiles of one color, which share no node."""
     for counter in range(grid.gate * workers):
         if counter % grid.gate == 0:
             if ti.static(grid.atomic):
@@ -130,5 +131,5 @@ def p2g(particles, grid, basis, transfer, what="all"):
     On return a node holds (momentum and impulse [kg m/s], mass [kg]); with `transfer.increment` the
     impulse is in the record apart, and so is the residual; if `grid.audited` a copy of it is."""
     workers = grid.workers(particles.count)
-    for color in range(1 if grid.atomic else 2):
+    for color in range(grid.colors):
         scatter_particles(particles, grid, basis, transfer, what, color, workers)

@@ -19,6 +19,7 @@ from .clear import clear
 from .ghosts import fold_ghosts
 from .p2g import add
 from .stencil import index, line_slope, line_weight, offset, weigh
+from .tiles import takes
 from .update_stress import load_state
 
 EVERY_STEPS = 32
@@ -51,12 +52,13 @@ def stiffen_share(
     particles: Template, law: Template, material, group, grid: Template, basis: Template, color,
     worker, workers,
 ):  # fmt: skip
-    """As in P2G, the slabs of one color whose middle lies in the worker's share."""
-    for pair in range(grid.slabs // 2):
-        slab = 2 * pair + color
-        if ti.min(int(grid.share[slab] * workers), workers - 1) == worker:
-            for p in range(grid.start[group, slab], grid.start[group, slab + 1]):
-                stiffen_particle(p, particles, law, material, grid, basis)
+    """As in P2G, the worker's tiles of one color."""
+    for tile in range(grid.tile_begin[color], grid.tile_begin[color + 1]):
+        if takes(worker, workers, tile, grid):
+            for plane in range(grid.slab):
+                s = grid.tile[tile] + plane * grid.strips
+                for p in range(grid.start[group, s], grid.start[group, s + 1]):
+                    stiffen_particle(p, particles, law, material, grid, basis)
 
 
 @ti.kernel
@@ -109,7 +111,7 @@ def slivers(particles, grid, basis, transfer, walls, gravity, dt) -> int:
     clear(grid)
     for number, group in enumerate(particles.groups):
         workers = grid.workers(group.end - group.begin)
-        for color in range(1 if grid.atomic else 2):
+        for color in range(grid.colors):
             stiffen_nodes(
                 particles, group.law, group.number, number, group.begin, group.end, grid, basis,
                 color, workers,

@@ -7,6 +7,7 @@ from ..runtime import Array, Template
 from ..stages import stage
 from .blocks import CHUNK
 from .stencil import first_node, index
+from .tiles import list_tiles, segment_of
 
 
 @ti.func
@@ -16,7 +17,7 @@ def cell(p, particles: Template, grid: Template, basis: Template):
 
 @ti.kernel
 def find_order(particles: Template, grid: Template, basis: Template, g: int, begin: int, end: int):
-    """order[new place] = old place, and start[g, slab].  Serial on a CPU: equal cells keep their
+    """order[new place] = old place, and start[g, segment].  Serial on a CPU: equal cells keep their
     order, whatever the number of threads.  On a GPU each chunk takes the next places that are free.
 
     The first group forgets what the last sort has found.  Cells are counted, but only chunks with
@@ -27,8 +28,8 @@ def find_order(particles: Template, grid: Template, basis: Template, g: int, beg
             grid.occupied[chunk] = 0
     ti.loop_config(serialize=True)
     for _ in range(1):
-        for slab in range(grid.slabs + 1):
-            grid.start[g, slab] = 0
+        for s in range(grid.segments + 1):
+            grid.start[g, s] = 0
         for d in ti.static(range(grid.dim)):
             if g == 0:
                 grid.lowest[None][d] = grid.nodes
@@ -43,17 +44,17 @@ def find_order(particles: Template, grid: Template, basis: Template, g: int, beg
             ti.atomic_min(grid.lowest[None][d], base[d])
             ti.atomic_max(grid.highest[None][d], base[d])
         if ti.static(not grid.atomic):
-            grid.start[g, i // (grid.slab * grid.strides[0])] += 1
+            grid.start[g, segment_of(base, grid)] += 1
     ti.loop_config(serialize=True)
     for _ in range(1):
         grid.placed[None] = begin
         if ti.static(not grid.atomic):
             total = begin
-            for slab in range(grid.slabs):
-                inside = grid.start[g, slab]
-                grid.start[g, slab] = total
+            for s in range(grid.segments):
+                inside = grid.start[g, s]
+                grid.start[g, s] = total
                 total += inside
-            grid.start[g, grid.slabs] = end
+            grid.start[g, grid.segments] = end
     ti.loop_config(serialize=not grid.atomic)
     for chunk in range(grid.chunks):
         if grid.occupied[chunk]:
@@ -116,8 +117,8 @@ def mark_around(chunk, grid: Template):
 
 @ti.kernel
 def plan(particles: Template, grid: Template, reach: Array):
-    """From occupied: reached and active.  From start[group, slab]: the share of each slab.  For the
-    host: reach = [active_count, lowest, highest]."""
+    """From occupied: reached and active.  From start[group, segment]: the tiles.  For the host:
+    reach = [active_count, lowest, highest]."""
     for a in range(grid.active_count[None]):
         grid.reached[grid.active[a]] = 0
     ti.loop_config(serialize=not grid.atomic)
@@ -133,13 +134,8 @@ def plan(particles: Template, grid: Template, reach: Array):
             grid.active[ti.atomic_add(grid.active_count[None], 1)] = chunk
     ti.loop_config(serialize=True)
     for _ in range(1):
-        before = 0
-        for slab in range(grid.slabs):
-            inside = 0
-            for g in range(particles.group_count):
-                inside += grid.start[g, slab + 1] - grid.start[g, slab]
-            grid.share[slab] = (before + 0.5 * inside) / particles.count
-            before += inside
+        if ti.static(not grid.atomic):
+            list_tiles(particles, grid)
         reach[0] = grid.active_count[None]
         for d in ti.static(range(grid.dim)):
             reach[1 + d] = grid.lowest[None][d]
@@ -148,9 +144,9 @@ def plan(particles: Template, grid: Template, reach: Array):
 
 @stage
 def sort(particles, grid, basis):
-    """On return the particles of each material lie in the order of their slabs and cells,
-    `grid.start` says where each slab begins, and `grid.active` lists the chunks of nodes that
-    particles can reach before one of them has moved a cell."""
+    """On return the particles of each material lie in the order of their cells, `grid.start` says
+    where each segment begins, `grid.tile` lists the tiles and `grid.active` the chunks of nodes
+    that particles can reach before one of them has moved a cell."""
     for g, group in enumerate(particles.groups):
         find_order(particles, grid, basis, g, group.begin, group.end)
     permute(particles)

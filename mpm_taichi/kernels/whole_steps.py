@@ -101,7 +101,7 @@ def take_step(
         push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
     grid.speed_squared[None], grid.rate_squared[None], grid.compression[None] = 0.0, 0.0, 0.0
     clear_share(grid, 0, 1)
-    for color in range(2):
+    for color in range(grid.colors):
         scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
     note(grid, gravity, h, alpha, tally, "given")
     exchange(grid, walls, gravity, h, False, False)

@@ -20,7 +20,7 @@ PROGRAM = """
 import hashlib, json, os, sys
 from pathlib import Path
 import numpy as np
-from mpm_taichi import runtime
+from mpm_taichi import grid, runtime
 from mpm_taichi.bases import QuadraticBSpline
 from mpm_taichi.transfers import FLIP, MLS
 from tests.verification.motions import ball_points, solver
@@ -36,6 +36,7 @@ def cpu_seconds():
         used[task.name] = (int(fields[11]) + int(fields[12])) / tick
     return used
 
+grid.MANY = 0  # strips in 3D, as of many particles
 runtime.start("cpu", precision, threads)
 cells, width = {2: (256, 0.1), 3: (64, 0.06)}[dim]
 x, V0 = ball_points(dim, cells, 0.85, 0.003)  # a bar: the ball is larger than the box
@@ -53,10 +54,19 @@ after = cpu_seconds()
 digest = hashlib.sha256()
 for name in ("x", "H", "rows", "id"):
     digest.update(getattr(mpm.particles, name).to_numpy().tobytes())
-occupied = np.diff(mpm.grid.start.to_numpy()[0])
+inside = np.diff(mpm.grid.start.to_numpy()[0]).reshape(mpm.grid.slabs, mpm.grid.slab, -1)
+inside = inside.sum(axis=1)  # of each tile
+excess = 0  # of a worker's particles of a color over an even share, in particles of a tile
+begin, share = mpm.grid.tile_begin.to_numpy(), mpm.grid.share.to_numpy()
+for color in range(mpm.grid.colors):
+    mine = inside[color % 2 :: 2, color // 2 :: 2].ravel()
+    mine = mine[mine > 0]
+    worker = np.minimum((share[begin[color] : begin[color + 1]] * threads).astype(int), threads - 1)
+    most = np.bincount(worker, mine).max()
+    excess = max(excess, (most - mine.sum() / threads) / mine.max())
 print(json.dumps({
     "digest": digest.hexdigest(), "sorts": mpm.sorts, "particles": len(x),
-    "slabs": int((occupied > 0).sum()),
+    "tiles": int((inside > 0).sum()), "excess": float(excess),
     "cpu": sorted(
         (after[t] - before.get(t, 0.0) for t in after if t != str(os.getpid())), reverse=True
     ),
@@ -88,14 +98,16 @@ def _environment():
     ],
 )  # fmt: skip
 def test_same_bytes_on_1_2_and_3_threads(tmp_path, dim, precision, method):
-    """100 steps with sorts of at least 10,000 particles in at least 8 slabs: identical bytes, with
-    fast-math on.  As many workers as there are cores have used CPU time: with more threads than
-    cores a worker that is awake takes the share of one that is not."""
+    """100 steps with sorts of at least 10,000 particles in at least 8 tiles: identical bytes, with
+    fast-math on.  Of each color of tiles a worker has at most one tile more than an even share.  As
+    many workers as there are cores have used CPU time: with more threads than cores a worker that
+    is awake takes the share of one that is not."""
     runs = {threads: run(tmp_path, threads, dim, precision, method) for threads in (1, 2, 3)}
     print(runs)
     first = runs[1]
     assert first["particles"] >= 10_000
-    assert first["slabs"] >= 8
+    assert first["tiles"] >= 8
+    assert all(one["excess"] <= 1 for one in runs.values())
     assert first["sorts"] >= 2
     assert first["moved"]
     assert {r["digest"] for r in runs.values()} == {first["digest"]}
