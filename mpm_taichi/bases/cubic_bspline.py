@@ -27,16 +27,12 @@ class CubicBSpline:
     @staticmethod
     @ti.func
     def weights(a, half):
+        """The inner two follow from the outer two, since 1 and x are reproduced.  By their own
+        formula weights would add up to 1 + 4e-8 in f32, as 1/6 and 2/3 are rounded up: in 5,000
+        steps a disk would turn 5e-4 faster."""
         u, v = a - 1.0, 2.0 - a
-        third, sixth = 1.0 / 3, 1.0 / 6
-        return ti.Matrix.rows(
-            [
-                sixth * v**3,
-                2 * third - u**2 * (1.0 - 0.5 * u),
-                2 * third - v**2 * (1.0 - 0.5 * v),
-                sixth * u**3,
-            ]
-        )
+        low, high = v / 6.0 * v**2, u / 6.0 * u**2
+        return ti.Matrix.rows([low, v - 2.0 * low + high, u - 2.0 * high + low, high])
 
     @staticmethod
     @ti.func
