@@ -24,8 +24,9 @@ domain: {{size: {size}, cells: {cells}, walls: slip}}
 # default, and a good choice: quadratic B-splines, APIC in its MLS form.
 method: {{basis: quadratic, transfer: {{type: apic, force: mls}}}}
 
-# Simulated time [s]; step: auto takes `safety` times the longest stable step, or give seconds.
-time: {{end: 1.0, step: auto, safety: 0.5}}
+# Simulated time [s]; step: auto takes half of the longest stable step (`safety: 0.5`), or give
+# seconds.
+time: {{end: 1.0, step: auto}}
 
 gravity: {gravity}  # [m/s^2]
 

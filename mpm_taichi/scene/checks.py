@@ -132,6 +132,8 @@ def step(time) -> Iterator[Found]:
         yield ("time", "step"), f"must not exceed time.end, {time.end:.12g} (got {time.step:.12g})"
     if time.step == "auto" and not time.enforce:
         yield ("time", "enforce"), "must not be false where time.step is auto: give a step"
+    if time.step != "auto" and time.safety != type(time).model_fields["safety"].default:
+        yield ("time", "safety"), "is of step: auto, and time.step is given: leave out one of them"
 
 
 def interval(time, output) -> Iterator[Found]:
@@ -159,6 +161,21 @@ def view(domain, output) -> Iterator[Found]:
             yield (*place, key), "a 2D domain is seen straight on: only a 3D one can be turned"
     if its.center is not None and len(its.center) != domain.dimension:
         yield (*place, "center"), wrong_length(its.center, domain)
+
+
+def colors(output) -> Iterator[Found]:
+    """Pressure has two signs, and 0 the color between."""
+    style = output.images
+    if style == "none" or style.color_by != "pressure" or style.range is None:
+        return
+    low, high = style.range
+    if low != -high:
+        most = max(abs(low), abs(high))
+        yield (
+            ("output", "images", "range"),
+            f"must have 0 in its middle for pressure: [{-most:g}, {most:g}] (got "
+            f"{shown(style.range)})",
+        )
 
 
 def gravity(domain, gravity) -> Iterator[Found]:
@@ -265,6 +282,7 @@ CHECKS = (
     interval,
     stages,
     view,
+    colors,
     gravity,
     names,
     material,

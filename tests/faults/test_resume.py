@@ -23,7 +23,7 @@ SCENE = """
 version: 1
 domain: {{size: {size}, cells: {cells}, walls: {walls}}}
 method: {{basis: {basis}, transfer: {transfer}, stress_update: {update}, precision: {precision}}}
-time: {{end: 0.5, step: {step}, safety: 0.4}}
+time: {{end: 0.5, step: {step}}}
 gravity: {gravity}
 {force}
 materials:
@@ -43,7 +43,10 @@ output: {{every: 0.05, images: none, audit: {audit}}}
 """
 
 
-def scene(tmp_path, basis, transfer, update, laws, precision="f64", step="auto", dim=2, **more):
+def scene(
+    tmp_path, basis, transfer, update, laws, precision="f64", step="auto, safety: 0.4", dim=2,
+    **more,
+):  # fmt: skip
     one, other = (LAWS[law] for law in laws)
     values = {
         "size": [1.0] * dim, "cells": [8] * dim, "walls": "slip", "gravity": [0.3, -9.8, 0.1][:dim],

@@ -142,6 +142,12 @@ SECTIONS = [
     ),
     (
         "color_by: speed",
+        "color_by: pressure, range: [0, 5]",
+        "26:52: output.images.range: must have 0 in its middle for pressure: [-5, 5] (got [0.0, "
+        "5.0])",
+    ),
+    (
+        "color_by: speed",
         "size: 9",
         "26:32: output.images.size: must be at least 64 and at most 8192 (got 9)",
     ),

@@ -188,6 +188,11 @@ def test_enforce_is_about_given_steps(scene):
         scene(time="step: auto, enforce: false")
 
 
+def test_safety_is_about_automatic_steps(scene):
+    with pytest.raises(InputError, match=r"time\.safety: is of step: auto"):
+        scene(time="step: 0.001, safety: 0.4")
+
+
 def test_a_step_goes_on_from_its_state(scene):
     """Through JSON: the same lengths, to the last bit, and the same counts."""
     one, other = step_of(scene()), step_of(scene())
