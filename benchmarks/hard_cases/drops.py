@@ -18,9 +18,9 @@ right about their own volume and nobody asks for that of all.
 What the nodes know of the density, r = sum_i w_ip m_i / (rho0 dx^dim), helps, and costs elsewhere.
 A free surface must not look like a gap; beside a flat one a full fluid has r = Phi(d), and with h =
 s |grad r| / r, s^2 the variance of both kernels, r exp(0.45 h + 0.5 h^2) is the density f within.
-Tried with quadratic MLS, separate walls, several steps and starts; volume error here, height over
-volume of the pool of a dam break 10 cells wide (its test asks for 8 %), error of the hydrostatic
-pressure (asked: mean 0.3 %, most 1 %):
+Tried in a small program of its own, with quadratic MLS, several steps and starts; volume error
+here, height over volume of the pool of a dam break 10 cells wide (its test asks for 1 to 8 %),
+error of the hydrostatic pressure (asked: mean 0.3 %, most 1 %):
 
     law                                               thrown       dam    pressure
     as it is                                        1.4 to 1.9     0.98   0.25 %, most 0.8 %
