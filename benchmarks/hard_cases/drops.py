@@ -13,7 +13,31 @@ The second half fails, whatever the scheme, by what the law says of itself (mate
 leaves out the gaps that open, so that what closes them meets pressure at once.  Each impact throws
 particles apart; where they fall back they press as if they filled the space between them.  A layer
 4 cells deep comes to rest two to three times as deep, with J within 1 % of 1: particles are
-right about their own volume and nobody asks for that of all."""
+right about their own volume and nobody asks for that of all.
+
+What the nodes know of the density, r = sum_i w_ip m_i / (rho0 dx^dim), helps, and costs elsewhere.
+A free surface must not look like a gap; beside a flat one a full fluid has r = Phi(d), and with h =
+s |grad r| / r, s^2 the variance of both kernels, r exp(0.45 h + 0.5 h^2) is the density f within.
+Tried in a small program of its own, with quadratic MLS, several steps and starts; volume error
+here, height over volume of the pool of a dam break 10 cells wide (its test asks for 1 +- 0.08),
+error of the hydrostatic pressure (asked: mean 0.3 %, most 1 %):
+
+    law                                               thrown       dam    pressure
+    as it is                                        1.4 to 1.9     0.98   0.25 %, most 0.8 %
+    gaps remembered up to J = 1.05 ... 4            1.9 to 0.34    0.94 ... 0.92
+    gaps remembered without bound                   0.23           0.92
+    gaps remembered, J <= 1 / r                     0.5 to 0.6     0.95   as it is
+    no pressure where f < 0.9                       0.09 to 0.21   0.88   as it is
+    J <= 1 / f, and raised to 0.97 / f              -0.02 to 0.22  0.86   0.30 %, most 1.3 %
+    the same, and lowered to 1.03 / f within
+    a thousand travel times of a cell               0.03 to 0.27   1.03   0.67 %, most 7 %
+    both with 8 % instead of 3 %                    0.11 and 0.23  0.88 and 1.03, as it is
+
+Water that closes its gaps is too shallow in a dam break because J drifts the other way too: by the
+floor a pool has 1.3 times the particles that fit, at J = 1, and the gaps above them make up for it.
+To lower J cures that, and gives energy to the fluid, 2 to 5 % of the dam's; beside a denser body it
+would press where it should not.  What is left here is a gap of half a cell between the floor and
+the first particles, which cushions them and looks like a free surface."""
 
 from typing import Any
 
@@ -23,7 +47,7 @@ from experiments import schemes
 from mpm_taichi.bases import BASES
 
 from .case import Case, Draw, Figure, Found
-from .scenes import body, clamps, simulate, vector
+from .scenes import along, body, clamps, simulate, vector
 
 FLUID = {"type": "fluid", "density": 1, "bulk_modulus": 1}
 THROWS = {True: 2, False: 10}
@@ -37,13 +61,14 @@ def measure(scheme, draw: Draw) -> Found:
 
 
 def torn(scheme, draw: Draw):
-    cells, middle, v, end = (80, 16), 40, 0.05, 320.0
-    shift = draw.offsets(1, 2)[0] - 0.5
+    dim, length, width, v, end = draw.dimension, 80, 16, 0.05, 320.0
+    cells, middle = along(0, dim, length, width), length // 2
+    shift = draw.offsets(1, dim)[0] - 0.5
     drop: dict[str, Any] = {
         "name": "drop", "material": "solid",
-        "shape": {"type": "ball", "center": [middle, cells[1] / 2], "radius": 4},
+        "shape": {"type": "ball", "center": along(0, dim, middle, width / 2), "radius": 4},
         "particles": {"type": "lattice", "per_cell": 2}, "displacement": vector(shift),
-        "velocity": [f"where(X < {middle}, {-v}, {v})", "0"],
+        "velocity": vector(along(0, dim, f"where(X < {middle}, {-v}, {v})")),
     }  # fmt: skip
     simulation = simulate(scheme, cells, [drop], FLUID, end)
     right = simulation.snapshot.position[:, 0] > middle + shift[0]
@@ -60,15 +85,18 @@ def torn(scheme, draw: Draw):
 
 def thrown(scheme, draw: Draw):
     """Each throw lasts one and a half times as long as water falls to the other side."""
-    width, depth, high, g = 16, 4, 12, 3e-4
+    dim, depth, high, g = draw.dimension, 4, 12, 3e-4
+    width = {2: 16, 3: 4}[dim]
     turn = 1.5 * np.sqrt(2 * (high - depth) / g)
     last = THROWS[draw.quick] * turn
     up = f"where(t / {2 * turn} - floor(t / {2 * turn}) < 0.5, {g}, {-g})"
     sections: dict[str, Any] = {
-        "domain": {"walls": "separate"}, "body_force": ["0", f"where(t < {last}, {up}, {-g})"],
-    }  # fmt: skip
-    water = body("water", [0, 0], [width, depth])
-    simulation = simulate(scheme, [width, high], [water], FLUID, last + 3 * turn, **sections)
+        "domain": {"walls": "separate"},
+        "body_force": vector(along(1, dim, f"where(t < {last}, {up}, {-g})")),
+    }
+    water = body("water", [0] * dim, along(1, dim, depth, width))
+    cells = along(1, dim, high, width)
+    simulation = simulate(scheme, cells, [water], FLUID, last + 3 * turn, **sections)
     simulation.run()
     s = simulation.snapshot
     J = s.initial_volume @ s.volume_ratio / s.initial_volume.sum()
@@ -82,5 +110,5 @@ def thrown(scheme, draw: Draw):
 ALL = schemes("linear: flip; gimp: flip, apic; quadratic: pic, flip, apic, mls; cubic: flip, mls")
 CASE = Case(
     "H22", "Drops in tension", measure, ALL, schemes("quadratic: mls"),
-    fails=dict.fromkeys(map(str, ALL), "volume"), clamps=True,
+    fails=dict.fromkeys(map(str, ALL), "volume"), dimensions=(2, 3), clamps=True,
 )  # fmt: skip
