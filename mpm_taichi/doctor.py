@@ -41,7 +41,7 @@ PACKAGES = (
     Package("imageio-ffmpeg", "export --mp4", "imageio-ffmpeg>=0.5", True),
     Package("vtk", "tests of files for ParaView", "vtk>=9.3", True),
     Package("playwright", "clicking tests of the player", "playwright>=1.40", True),
-    Package("pytest", "the tests", "pytest>=8", True),
+    Package("pytest", "the tests", "pytest>=8,<9.2", True),
 )
 """As pyproject.toml has them."""
 

@@ -10,6 +10,7 @@ import time
 import pytest
 
 from mpm_taichi import checkpoints
+from mpm_taichi.cli import main
 from tests.command_line import SCENES, environment, in_words, mpm_taichi
 
 LATTICE = SCENES / "two_disks_lattice.yaml"
@@ -217,7 +218,7 @@ def test_a_particle_that_leaves_is_named_and_shown(tmp_path):
     assert "it fails again, the same particle, at the same step" in again.stderr
 
 
-def test_nothing_to_go_on_with(tmp_path):
+def test_nothing_to_go_on_with(tmp_path, capfd):
     """No folder, no run, a run without checkpoint, a damaged report: sentences and exit code 2."""
     run = tmp_path / "run"
     run.mkdir()
@@ -230,12 +231,11 @@ def test_nothing_to_go_on_with(tmp_path):
         (("run",), "name a scene file"),
     ]
     for arguments, text in cases:
-        refused = mpm_taichi(*arguments)
-        assert refused.returncode == 2, refused.stderr
-        assert text in refused.stderr
+        assert main([*map(str, arguments)]) == 2
+        assert text in capfd.readouterr().err
     (run / "run.json").write_text("{")
-    assert "run.json: cannot be read" in mpm_taichi("--resume", run).stderr
+    assert main(["--resume", str(run)]) == 2
+    assert "run.json: cannot be read" in capfd.readouterr().err
     (run / "run.json").write_text('{"status": "running"}')
-    refused = mpm_taichi("--resume", run)
-    assert refused.returncode == 2
-    assert "the run has no checkpoint" in refused.stderr
+    assert main(["--resume", str(run)]) == 2
+    assert "the run has no checkpoint" in capfd.readouterr().err

@@ -19,8 +19,10 @@ DT = 1e-3
 pytestmark = pytest.mark.xdist_group("filters")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def living():
+    """Taichi afresh for each method: fields are part of a kernel's name in the cache, and those of
+    a second solver are others."""
     return Living()
 
 

@@ -39,8 +39,9 @@ def test_body_force_and_scale():
 @pytest.mark.slow
 @pytest.mark.parametrize("force", ["mls", pytest.param("gradient", marks=pytest.mark.campaign)])
 def test_cubic_splines_follow_it(force):
-    """40 cells per meter, 5 x 5 particles per cell: at most 3 % at t = 0.5 and 5 % at t = 1."""
-    middle, end = errors(f"method.transfer.force={force}")
+    """40 cells per meter, 5 x 5 particles per cell, steps 2.5 times those of the file: at most 3 %
+    at t = 0.5 and 5 % at t = 1 (seen with MLS: 0.4 % and 1.7 %)."""
+    middle, end = errors(f"method.transfer.force={force}", "time.step=2.5e-3")
     assert middle < 0.03
     assert end < 0.05
 
