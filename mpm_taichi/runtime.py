@@ -3,6 +3,8 @@
 import contextlib
 import io
 import os
+import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,6 +47,9 @@ MANY = 32_768
 work behind it, but for laws that iterate, whose stress takes 5 to 15 % longer without; with it a
 scene takes 1 to 5 s longer to compile: it looks for the stores behind each load of a kernel."""
 
+LEFT_BEHIND = 60
+"""Seconds after which a lock of the cache is nobody's."""
+
 ends = 0
 """How often all fields have gone, since the program began."""
 
@@ -54,6 +59,18 @@ def stop() -> None:
     global ends
     ends += 1
     ti.reset()
+
+
+def _unlock_cache():
+    """Taichi's cache of kernels is locked while it is written or read, for less than a second; a
+    process killed then leaves a lock with which no other would find a kernel again."""
+    folder = os.environ.get(
+        "TI_OFFLINE_CACHE_FILE_PATH", impl.default_cfg().offline_cache_file_path
+    )
+    lock = Path(folder, "ticache.lock")
+    with contextlib.suppress(OSError):
+        if time.time() - lock.stat().st_mtime > LEFT_BEHIND:
+            lock.unlink()
 
 
 def start(
@@ -71,6 +88,7 @@ def start(
     if device == "metal" and precision == "f64":
         raise InputError("--device metal has no 64-bit floats: take --precision f32")
     stop()
+    _unlock_cache()
     if device == "vulkan" or not os.environ.get("DISPLAY"):
         os.environ.setdefault("EGL_PLATFORM", "surfaceless")
     try:

@@ -2,6 +2,8 @@
 
 import ast
 import inspect
+import os
+import time
 from types import SimpleNamespace
 
 import pytest
@@ -118,3 +120,15 @@ def test_is_at_work():
     assert kernel_impl.getsourcelines(test_is_at_work) is kernel_impl.getsourcelines(
         test_is_at_work
     )
+
+
+def test_a_lock_left_behind_is_removed(tmp_path, monkeypatch):
+    """What a process killed amid writing leaves: a lock a minute old is gone after a start, that of
+    another process at work, a second old, is not."""
+    lock = tmp_path / "ticache.lock"
+    monkeypatch.setenv("TI_OFFLINE_CACHE_FILE_PATH", str(tmp_path))
+    for age, stays in ((1, True), (90, False)):
+        lock.touch()
+        os.utime(lock, (time.time() - age,) * 2)
+        runtime.start("cpu")
+        assert lock.exists() == stays
