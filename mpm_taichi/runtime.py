@@ -37,6 +37,11 @@ def widest_float():
     return chosen.default_fp if chosen.arch in (ti.vulkan, ti.metal) else ti.f64
 
 
+def has_wide_functions() -> bool:
+    """Whether exponential, logarithm and angles are there in f64, once Taichi has started."""
+    return impl.current_cfg().arch not in (ti.vulkan, ti.metal)
+
+
 def real_type() -> np.dtype:
     """Of `float` in a kernel, since `start`."""
     return np.dtype(to_numpy_type(impl.get_runtime().default_fp))

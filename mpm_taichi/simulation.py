@@ -11,8 +11,9 @@ from .at_outputs import as_recorder
 from .bodies import body_points, first_motion, half_width
 from .cautions import cautions
 from .errors import InputError, RunError
+from .kernels.clock import Clock
 from .kernels.sums import sums
-from .kernels.whole_steps import Clock
+from .kernels.whole_steps import MOST_TOGETHER
 from .ledger import begin_ledger, ledger
 from .lookout import Lookout
 from .memory import planned_memory, refuse_too_much
@@ -26,11 +27,8 @@ from .threads import threads as worthwhile
 from .time_step import TimeStep
 from .trouble import gone_wrong
 
-MOST_TOGETHER = 64
-"""Steps that `advance` takes where nobody asks to see any; and the most in one launch."""
-
-PARTICLE_STEPS = 100_000
-"""Of one launch, some 10 ms: a signal waits for its end."""
+PARTICLE_STEPS = {"cpu": 100_000, "gpu": 10_000_000}
+"""Without a return to Python, some 10 ms: a signal waits for their end."""
 
 CLOCK = ("time", "step_count", "output_count", "dt", "last_dt", "first_dt", "is_started")
 """Of a Simulation, in a checkpoint."""
@@ -41,7 +39,8 @@ class Simulation:
     Taichi has one set of fields.
 
     `threads` workers on a CPU; by default what the size of the scene is worth.  The result does
-    not depend on it, to the last bit.  Few particles take whole steps on one of them.
+    not depend on it, to the last bit.  Few particles take whole steps on one of them, and on a GPU
+    all do.
 
     `reduction` shortens all steps."""
 
@@ -230,7 +229,8 @@ class Simulation:
             self.outputs.time(self.output_count + 2) if more else 0.0,
             rule.last, rule.motion, self.solver.drift, rule.pace, rule.growth_left,
         )  # fmt: skip
-        patience = max(1, PARTICLE_STEPS // self.ranges[-1])
+        kind = "cpu" if self.device == "cpu" else "gpu"
+        patience = max(1, PARTICLE_STEPS[kind] // self.ranges[-1])
         together = min(most, MOST_TOGETHER, patience, self.lookout.patience)
         self.solver.take_whole_steps(clock, int(together))
         self.dt = clock.dt

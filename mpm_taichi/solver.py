@@ -10,6 +10,7 @@ import taichi as ti
 from .grid import Grid
 from .kernels.body_force import push
 from .kernels.clear import clear
+from .kernels.clock import Clock
 from .kernels.fastest import fastest
 from .kernels.g2p import g2p
 from .kernels.ghosts import fill_ghosts, fold_ghosts
@@ -23,7 +24,7 @@ from .kernels.start_moments import start_moments
 from .kernels.stiffness import stiffest
 from .kernels.tally import NoTally, note_at_walls, note_start
 from .kernels.update_stress import update_stress
-from .kernels.whole_steps import Clock, whole_steps
+from .kernels.whole_steps import Desk, queued_steps, whole_steps
 from .kernels.wrap import wrap
 from .materials import Material
 from .particles import Particles
@@ -43,7 +44,8 @@ class Solver:
     particle are taken as empty.  `stress_update` is usl, musl or usf; `flip_part(dt)` the FLIP part
     of a blend, `filter_order` that of XPIC, `body_force` a field b(X, x, t) [m/s^2] or None.
 
-    With `whole` few particles take whole steps in one launch, whatever `threads` is.
+    With `whole` the device takes several steps by itself (kernels/whole_steps.py): on a CPU those
+    of few particles, whatever `threads` is.
 
     `threads` workers share the work on a CPU, and the result does not depend on it; `atomic` is the
     form for GPUs."""
@@ -80,9 +82,9 @@ class Solver:
                 gravity,
                 body_force is not None,
             )  # fmt: skip
-        few = self.particles.count <= FEW and not atomic
-        self.is_whole = whole and few and stress_update == "usl"
-        self.is_whole = self.is_whole and not transfer.filtered
+        suits = stress_update == "usl" and not transfer.filtered
+        self.is_whole = whole and suits and (atomic or self.particles.count <= FEW)
+        self.desk = Desk(self.flip_part) if self.is_whole and atomic else None
         self.motion = Motion()  # of the last step
         self.drift = inf  # bound of the cells that a particle has moved since the sort
         self.sorts = 0
@@ -159,13 +161,17 @@ class Solver:
         self.drift += dt * self.motion.speed / self.grid.dx
 
     def take_whole_steps(self, clock: Clock, most: int):
-        """Up to `most` steps as `step` would take them, in one launch."""
+        """Up to `most` steps as `step` would take them, without a return to Python."""
         self.sort_if_due()
         clock.drift = self.drift
-        whole_steps(
+        scene = (
             self.particles, self.grid, self.basis, self.transfer, self.walls, self.gravity,
-            self.body_force, self.flip_part, clock, most, self.tally,
+            self.body_force,
         )  # fmt: skip
+        if self.grid.atomic:
+            queued_steps(*scene, self.desk, clock, most)
+        else:
+            whole_steps(*scene, self.flip_part, clock, most, self.tally)
         self.drift = clock.drift
 
     @property

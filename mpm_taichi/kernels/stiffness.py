@@ -6,7 +6,7 @@ import taichi as ti
 from ..runtime import Array, Template
 from .blocks import first_block
 from .sums import MOST_BLOCKS
-from .time_step import CONSTANT, LASTING, LONE_LENGTH, WAVE_SPEED
+from .time_step import CONSTANT, LASTING, LONE_LENGTH, WAVE_SPEED, wide
 from .update_stress import load_state
 
 WAVE, LONE = range(2)
@@ -46,15 +46,15 @@ def look_share(
 def look_again(particles: Template, pace: Template, densities: Template, seen: Template):
     """As Simulation does between launches: `seen` [materials, 4] becomes what `stiffest` tells of
     each, and the rule `pace` follows."""
-    pace[WAVE_SPEED], pace[CONSTANT] = ti.cast(0.0, ti.f64), pace[LASTING]
+    pace[WAVE_SPEED], pace[CONSTANT] = wide(0.0), pace[LASTING]
     for law in ti.static(particles.laws):
         for material in range(law.constants.shape[0]):
             k = law.first + material
             wave, wave_particle, lone, lone_particle = stiffest_of(
                 particles, law, material, law.ends[material], law.ends[material + 1]
             )
-            seen[k, 0], seen[k, 1] = ti.cast(wave, ti.f64), ti.cast(wave_particle, ti.f64)
-            seen[k, 2], seen[k, 3] = ti.cast(lone, ti.f64), ti.cast(lone_particle, ti.f64)
+            seen[k, 0], seen[k, 1] = wide(wave), wide(wave_particle)
+            seen[k, 2], seen[k, 3] = wide(lone), wide(lone_particle)
             pace[WAVE_SPEED] = ti.max(pace[WAVE_SPEED], ti.sqrt(seen[k, 0] / densities[k]))
             if lone > 0.0:
                 alone = pace[LONE_LENGTH] * ti.sqrt(densities[k] / seen[k, 2])

@@ -81,6 +81,18 @@ def update_particle(
 
 
 @ti.func
+def note_motion(grid: Template, speed_squared, rate_squared, compression):
+    """On a GPU for each particle: few of them have to wait for another; and behind its loops the
+    compiler of software Vulkan (Mesa 22.3) has lost the largest of a worker."""
+    if speed_squared > grid.speed_squared[None]:
+        ti.atomic_max(grid.speed_squared[None], speed_squared)
+    if rate_squared > grid.rate_squared[None]:
+        ti.atomic_max(grid.rate_squared[None], rate_squared)
+    if compression > grid.compression[None]:
+        ti.atomic_max(grid.compression[None], compression)
+
+
+@ti.func
 def stress_share(
     particles: Template, law: Template, material, grid: Template, transfer: Template,
     begin, end, dt, dt_next, alpha,
@@ -98,20 +110,17 @@ def stress_share(
                 p, particles, law, material, grid, transfer, dt, dt_next, alpha,
                 velocity, stress, move, tally, row + block,
             )  # fmt: skip
-            if ti.static(move):  # ti.max would spoil the packing of lanes
+            if ti.static(move and grid.atomic):
+                note_motion(grid, speed_squared, rate_squared, compression)
+            elif ti.static(move):  # ti.max would spoil the packing of lanes
                 if speed_squared > fastest:
                     fastest = speed_squared
                 if rate_squared > steepest:
                     steepest = rate_squared
                 if compression > tightest:
                     tightest = compression
-    if ti.static(move):  # on a GPU each particle comes here: few of them have to wait for another
-        if fastest > grid.speed_squared[None]:
-            ti.atomic_max(grid.speed_squared[None], fastest)
-        if steepest > grid.rate_squared[None]:
-            ti.atomic_max(grid.rate_squared[None], steepest)
-        if tightest > grid.compression[None]:
-            ti.atomic_max(grid.compression[None], tightest)
+    if ti.static(move and not grid.atomic):
+        note_motion(grid, fastest, steepest, tightest)
 
 
 @ti.kernel

@@ -1,164 +1,85 @@
-"""Several steps in one launch and on one thread, for small scenes.
+"""Several steps without a return to the host.
 
-A launch and its hand-off to the threads cost some 50 microseconds, and a step has eight: more than
-all the work of a thousand particles.  Here the stages follow each other without a return to Python,
-in the order of `Solver.step` for USL, and the device chooses the length of the next step."""
+Few particles on a CPU take them in one launch and on one thread: a launch and its hand-off to the
+threads cost some 50 microseconds, and a step has eight, more than all the work of a thousand
+particles.  On a GPU a step is one launch, and the host queues several without reading anything back
+between them: each reading would wait until the device has nothing more to do."""
 
-from dataclasses import dataclass, field
-from math import inf
+from math import ceil
 
 import numpy as np
 import taichi as ti
 
-from ..materials import Material
-from ..runtime import Array, Template
-from ..schedules import MOST
+from ..runtime import Array, Template, widest_float
 from ..stages import stage
-from ..time_step import MOST_GROWTH, Motion, Pace, Stiffness
-from .body_force import push_share
-from .clear import clear_share
-from .g2p import gather_share
-from .ghosts import exchange_share
-from .grid_update import update_share
-from .p2g import scatter_share
-from .stiffness import look_again
-from .tally import NoTally, note_share
-from .time_step import even_step, growth_of_moduli, longest_step
-from .update_stress import stress_share
+from ..time_step import Pace, Stiffness
+from .clock import COMPRESSION, LOOKS, ON, in_reach
+from .tally import NoTally
+from .whole_step import take_step
 
-TIME, DT, TARGET, AFTER, LAST, DRIFT, LEFT, LOOKS, TAKEN, ON, GOOD, SPEED, RATE, COMPRESSION = (
-    range(14)
-)
-
-
-@dataclass
-class Clock:
-    """Where a run is, and how far it may go: `time` [s], the length `dt` [s] of the next step, the
-    longest that the rule allowed `last`; `target` and `after`, the times of the next two outputs
-    (after: 0 if there is none); the `motion` of the last step; the `drift` [cells] of particles
-    since they were sorted, and the growth of their moduli that is left until these are looked at.
-    `pace` is the rule, which follows what is seen, and `stiffness` what this launch has seen last
-    of each material; empty where it did not look.
-
-    `lengths` [s] are those of the steps taken, `bounds` (of mpm_taichi/time_step.py) what bound the
-    one after each; `is_good`: the next is a number, not too short."""
-
-    time: float
-    dt: float
-    target: float
-    after: float
-    last: float
-    motion: Motion
-    drift: float
-    pace: Pace
-    growth_left: float = inf
-    stiffness: dict[Material, Stiffness] = field(default_factory=dict)
-    lengths: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    bounds: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
-    is_good: bool = True
-
-
-@ti.func
-def is_near_end(axis: Template, grid: Template):
-    """Whether particles reach ghost nodes along an axis."""
-    near = True
-    if ti.static(axis not in grid.periodic):
-        low, high = grid.lowest[None][axis] - 1, grid.highest[None][axis] + grid.support
-        near = low < grid.ghost or high > grid.ghost + grid.cells[axis]
-    return near
-
-
-@ti.func
-def exchange(
-    grid: Template, walls: Template, gravity: Template, dt, updated: Template, fill: Template
-):
-    """Fold or fill the ghost nodes that particles reach."""
-    for axis in ti.static(grid.folded):
-        if is_near_end(axis, grid):
-            exchange_share(
-                axis, grid, walls, gravity, dt, updated, fill, grid.records,
-                grid.lines_along[axis], 0, 1,
-            )  # fmt: skip
-
-
-@ti.func
-def note(grid: Template, gravity: Template, dt, alpha, tally: Template, when: Template):
-    if ti.static(tally.has_walls and (when != "kept" or tally.lets_go)):
-        note_share(grid, gravity, dt, alpha, tally, when, 0, 1)
-
-
-@ti.func
-def take_step(
-    particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
-    gravity: Template, body_force: Template, flip: Template, pace: Template, densities: Template,
-    seen: Template, tally: Template, clock: Template,
-):  # fmt: skip
-    """Returns which of BOUNDS binds the next step."""
-    time, dt, landing = clock[TIME], clock[DT], clock[TIME] + 1.5 * clock[DT] > clock[TARGET]
-    h = ti.cast(dt, float)
-    alpha = ti.cast(flip[0] * ti.exp(-flip[1] * dt), float)
-    if ti.static(particles.layout.force):
-        push_share(particles, grid, body_force, ti.cast(time, float), h, 0, 1)
-    grid.speed_squared[None], grid.rate_squared[None], grid.compression[None] = 0.0, 0.0, 0.0
-    clear_share(grid, 0, 1)
-    for color in range(grid.colors):
-        scatter_share(particles, grid, basis, transfer, "all", color, 0, 1)
-    note(grid, gravity, h, alpha, tally, "given")
-    exchange(grid, walls, gravity, h, False, False)
-    update_share(grid, walls, gravity, h, tally, 0, 1)
-    note(grid, gravity, h, alpha, tally, "kept")
-    exchange(grid, walls, gravity, 0.0, True, True)
-    note(grid, gravity, h, alpha, tally, "taken")
-    gather_share(particles, grid, basis, transfer, "all", h, tally, 0, 1)
-    longest, bound = longest_step(pace, clock[SPEED], clock[RATE], clock[LAST])
-    end = clock[TARGET] if landing else time + dt
-    goal = clock[AFTER] if landing else clock[TARGET]
-    dt_next = even_step(goal - end, longest) if goal > 0.0 else longest
-    for law in ti.static(particles.laws):
-        for material in range(law.constants.shape[0]):
-            stress_share(
-                particles, law, material, grid, transfer, law.ends[material],
-                law.ends[material + 1], h, ti.cast(dt_next, float), alpha, True, True, True, tally,
-                0, 1,
-            )  # fmt: skip
-    clock[TIME], clock[DT], clock[LAST] = end, dt_next, longest
-    clock[SPEED] = ti.sqrt(ti.cast(grid.speed_squared[None], ti.f64))
-    clock[RATE] = ti.sqrt(ti.cast(grid.rate_squared[None], ti.f64))
-    clock[COMPRESSION] = grid.compression[None]
-    clock[DRIFT] += dt * clock[SPEED] * grid.constants[None].inv_dx
-    clock[LEFT] -= dt * growth_of_moduli(pace, clock[RATE], clock[COMPRESSION])
-    if not clock[LEFT] > 0.0:
-        look_again(particles, pace, densities, seen)
-        clock[LEFT] = MOST_GROWTH
-        clock[LOOKS] += 1
-    clock[GOOD] = 0.0
-    if goal == 0.0 or goal - end < float(MOST) * longest:
-        clock[GOOD] = 1.0
-    if (
-        landing
-        or clock[GOOD] == 0.0
-        or clock[DRIFT] >= 0.99
-        or particles.lost[None] < particles.count
-    ):
-        clock[ON] = 0.0
-    return bound
+MOST_TOGETHER = 64
+"""Steps at most."""
 
 
 @ti.kernel
 def take_steps(
     particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
     gravity: Template, body_force: Template, flip: Array, pace: Array, densities: Array,
-    seen: Array, tally: Template, most: int, clock: Array, lengths: Array, bounds: Array,
+    seen: Array, tally: Template, most: int, clock: Array, log: Array,
 ):  # fmt: skip
     ti.loop_config(serialize=True)
-    for n in range(most):
+    for _ in range(most):
         if clock[ON] > 0.0:
-            lengths[n] = clock[DT]
-            clock[TAKEN] = n + 1
-            bounds[n] = take_step(
+            take_step(
                 particles, grid, basis, transfer, walls, gravity, body_force, flip, pace,
-                densities, seen, tally, clock,
+                densities, seen, tally, clock, log, 1,
             )  # fmt: skip
+
+
+@ti.kernel
+def queue_step(
+    particles: Template, grid: Template, basis: Template, transfer: Template, walls: Template,
+    gravity: Template, body_force: Template, flip: Template, pace: Template, clock: Template,
+    log: Template,
+):  # fmt: skip
+    take_step(
+        particles, grid, basis, transfer, walls, gravity, body_force, flip, pace, None, None,
+        NoTally, clock, log, int(clock[ON]),
+    )  # fmt: skip
+
+
+class Desk:
+    """What a step that is queued on a GPU reads and writes of the clock and the rule."""
+
+    def __init__(self, flip_part):
+        real = widest_float()
+        self.clock, self.pace = ti.field(real, COMPRESSION + 1), ti.field(real, len(Pace._fields))
+        self.flip, self.log = ti.field(real, 2), ti.field(real, (MOST_TOGETHER, 2))
+        self.flip.from_numpy(in_reach(flip_part))
+
+
+def likely_steps(clock, grid, most) -> int:
+    """Of `most`: those before an output or a sort, as they look now.  Further ones in the queue
+    would find nothing to do, and too few only make one more queue."""
+    to_output = round((clock.target - clock.time) / clock.dt)
+    moved = clock.dt * clock.motion.speed / grid.dx
+    to_sort = ceil((1 - clock.drift) / moved) if moved > 1 / most else most
+    return max(1, min(most, to_output, to_sort))
+
+
+@stage
+def queued_steps(
+    particles, grid, basis, transfer, walls, gravity, body_force, desk, clock, most
+):  # fmt: skip
+    """As `whole_steps` on a GPU, where no step is queued that is not likely to be taken."""
+    desk.clock.from_numpy(clock.numbers())
+    desk.pace.from_numpy(in_reach(clock.pace))
+    for _ in range(likely_steps(clock, grid, most)):
+        queue_step(
+            particles, grid, basis, transfer, walls, gravity, body_force, desk.flip, desk.pace,
+            desk.clock, desk.log,
+        )  # fmt: skip
+    clock.take_up(desk.clock.to_numpy(), desk.log.to_numpy().astype(float))
 
 
 @stage
@@ -166,24 +87,16 @@ def whole_steps(
     particles, grid, basis, transfer, walls, gravity, body_force, flip_part, clock, most,
     tally=NoTally,
 ):  # fmt: skip
-    """Up to `most` steps from `clock`, fewer where an output is reached, a sort is due, a particle
-    is lost or the next step is no number.  On return the clock says how far that was."""
-    numbers = np.array([
-        clock.time, clock.dt, clock.target, clock.after, clock.last, clock.drift,
-        clock.growth_left, 0, 0, 1, 1, clock.motion.speed, clock.motion.rate,
-        clock.motion.compression,
-    ])  # fmt: skip
-    lengths, bounds = np.zeros(most), np.zeros(most, np.int32)
-    pace, seen = np.array(clock.pace, float), np.zeros((len(particles.groups), 4))
+    """Up to `most` steps from `clock`, fewer where it stops (kernels/clock.py).  On return the
+    clock says how far that was."""
+    numbers, pace, log = clock.numbers(), in_reach(clock.pace), np.zeros((most, 2))
+    seen = np.zeros((len(particles.groups), 4))
     densities = np.array([group.material.density for group in particles.groups], float)
     take_steps(
         particles, grid, basis, transfer, walls, gravity, body_force, np.array(flip_part, float),
-        pace, densities, seen, tally, most, numbers, lengths, bounds,
+        pace, densities, seen, tally, most, numbers, log,
     )  # fmt: skip
-    clock.time, clock.dt, clock.last = map(float, numbers[[TIME, DT, LAST]])
-    speed, rate, compression = map(float, numbers[[SPEED, RATE, COMPRESSION]])
-    clock.motion = Motion(speed, rate, compression)
-    clock.drift, clock.growth_left = map(float, numbers[[DRIFT, LEFT]])
+    clock.take_up(numbers, log)
     clock.stiffness = {}
     if numbers[LOOKS]:
         clock.pace = Pace(*pace.tolist())
@@ -193,5 +106,3 @@ def whole_steps(
                 particles.groups, seen.tolist(), strict=True
             )
         }
-    clock.is_good, taken = bool(numbers[GOOD]), int(numbers[TAKEN])
-    clock.lengths, clock.bounds = lengths[:taken], bounds[:taken]

@@ -11,7 +11,18 @@ import mpm_taichi
 PACKAGE = Path(mpm_taichi.__file__).parent
 MEMORY_AND_THREADS = {
     f"kernels/{name}.py"
-    for name in ("blocks", "fill", "guard", "outside", "rows", "sort", "time_step", "whole_steps")
+    for name in (
+        "blocks",
+        "clock",
+        "fill",
+        "guard",
+        "outside",
+        "rows",
+        "sort",
+        "time_step",
+        "whole_step",
+        "whole_steps",
+    )
 }
 """Modules about memory, threads and launches, and what is done about faults: the twin has none."""
 

@@ -7,7 +7,7 @@ import pytest
 
 from mpm_taichi.bases import CubicBSpline, Linear, QuadraticBSpline
 from mpm_taichi.expressions import Expressions
-from mpm_taichi.kernels.whole_steps import Clock
+from mpm_taichi.kernels.clock import Clock
 from mpm_taichi.schedules import even_step
 from mpm_taichi.time_step import GROWTH, HUGE, MOST_GROWTH, Motion, Pace
 from mpm_taichi.transfers import FLIP, MLS, TPIC, FLIPBlend

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from mpm_taichi import bases, runtime, transfers
-from mpm_taichi.kernels.whole_steps import Clock
+from mpm_taichi.kernels.clock import Clock
 from mpm_taichi.materials import NeoHookean
 from mpm_taichi.particles import BodyPoints
 from mpm_taichi.reference import bases as twin_bases
