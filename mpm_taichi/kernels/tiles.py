@@ -31,8 +31,9 @@ def takes(worker, workers, tile, grid: Template):
 
 @ti.func
 def segment_of(base, grid: Template):
-    """Where a particle lies whose stencil begins at a node."""
-    return base[0] * grid.strips + base[1] // grid.strip
+    """Where a particle lies whose stencil begins at a node; some segment if that is nowhere."""
+    segment = base[0] * grid.strips + base[1] // grid.strip
+    return ti.min(ti.max(segment, 0), grid.segments - 1)
 
 
 @ti.func
