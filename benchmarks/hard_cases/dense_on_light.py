@@ -21,41 +21,44 @@ from experiments import schemes
 from mpm_taichi.bases import BASES
 
 from .case import Case, Draw, Figure, Found, U
-from .scenes import body, clamps, simulate, solid
+from .scenes import along, body, clamps, simulate, solid
 
 RATIO = 1000
+WIDTH = {2: 20, 3: 8}
+"""Of the gas [cells]."""
+
 PRESSURE = 1 / 1.4
 """Of the gas: its sound, too, has speed 1."""
 
 
-def measure(scheme, _draw: Draw) -> Found:
+def measure(scheme, draw: Draw) -> Found:
     figures, counts = [], {}
     for name, scene in (("foam", on_foam), ("gas", in_gas)):
-        found, more = scene(scheme)
+        found, more = scene(scheme, draw.dimension)
         figures += [f._replace(name=f"{f.name} ({name})") for f in found]
         counts |= more
     return Found(figures, counts)
 
 
-def falling(g) -> dict[str, Any]:
+def falling(g, dim) -> dict[str, Any]:
     material = solid()
     heavy = material | {"density": RATIO, "youngs_modulus": RATIO * material["youngs_modulus"]}
     return {
-        "materials": {"heavy": heavy}, "gravity": [0.0, -g], "domain": {"walls": "slip"},
+        "materials": {"heavy": heavy}, "gravity": along(1, dim, -g), "domain": {"walls": "slip"},
         "output": {"audit": True},
     }  # fmt: skip
 
 
-def on_foam(scheme):
+def on_foam(scheme, dim):
     """For a half period, to the lowest place."""
     h, thick, width, g = 16, 4, 4, 1.25e-5
     w = np.sqrt(1 / (h * (RATIO * thick + h / 3)))
     bodies = [
-        body("foam", [0, 0], [width, h]),
-        body("block", [0, h], [width, h + thick], material="heavy"),
+        body("foam", [0] * dim, along(1, dim, h, width)),
+        body("block", along(1, dim, h), along(1, dim, h + thick, width), material="heavy"),
     ]
-    cells, end = [width, h + thick + 4], np.pi / w
-    simulation = simulate(scheme, cells, bodies, solid(), end, **falling(g))
+    cells, end = along(1, dim, h + thick + 4, width), np.pi / w
+    simulation = simulate(scheme, cells, bodies, solid(), end, **falling(g, dim))
     block = simulation.body_of_particle == 1
     start, worst, fastest = height(simulation, block), 0.0, 0.0
     for now in simulation.frames():
@@ -70,22 +73,19 @@ def on_foam(scheme):
     return figures + kept(simulation, scheme), clamps(simulation)
 
 
-def in_gas(scheme):
+def in_gas(scheme, dim):
     """The block begins under the pressure of the gas."""
-    edge, (width, high), g, end = 4, (20, 36), 0.02, 28.0
-    low = np.array([(width - edge) / 2, (high - edge) / 2])
-    top = low + edge
+    edge, high, g, end = 4, 36, 0.02, 28.0
+    cells = np.array(along(1, dim, high, WIDTH[dim]))
+    low, top = (cells - edge) / 2, (cells + edge) / 2
     gas = {"type": "gas", "density": 1, "pressure": PRESSURE}
-    around = [
-        ([0, 0], [width, low[1]]), ([0, top[1]], [width, high]),
-        ([0, low[1]], [low[0], top[1]]), ([top[0], low[1]], [width, top[1]]),
-    ]  # fmt: skip
+    around = list(boxes_around(low, top, cells))
     bodies = [body(f"gas {k}", *box) for k, box in enumerate(around)]
     lam = solid()["youngs_modulus"] * 0.3 / 1.3 / 0.4
-    pressed = PRESSURE / RATIO / (1 + lam)  # 2 (lam + mu), with lam + 2 mu = 1
-    u = [f"{-pressed!r} * ({axis} - {float(at)!r})" for axis, at in zip("XY", low + 2, strict=True)]
+    pressed = PRESSURE / RATIO / (1 + (dim - 1) * lam)  # dim lam + 2 mu, with lam + 2 mu = 1
+    u = [f"{-pressed!r} * ({'XYZ'[axis]} - {float(at)!r})" for axis, at in enumerate(low + 2)]
     bodies.append(body("block", low, top, material="heavy", displacement=u))
-    simulation = simulate(scheme, [width, high], bodies, gas, end, **falling(g))
+    simulation = simulate(scheme, cells, bodies, gas, end, **falling(g, dim))
     block = simulation.body_of_particle == len(around)
     fastest, off = 0.0, 0.0
     alone = (high - edge) / 2 - 4  # sound has not come near before
@@ -99,6 +99,17 @@ def in_gas(scheme):
     return figures + kept(simulation, scheme), clamps(simulation)
 
 
+def boxes_around(low, top, size):
+    """Fill a domain but for the box from `low` to `top`: below and above, then beside it."""
+    first, last = np.zeros_like(low), np.array(size, float)
+    for axis in (1, 0, 2)[: len(size)]:
+        for begin, end in ((first[axis], low[axis]), (top[axis], last[axis])):
+            lower, upper = first.copy(), last.copy()
+            lower[axis], upper[axis] = begin, end
+            yield lower, upper
+        first[axis], last[axis] = low[axis], top[axis]
+
+
 def height(simulation, chosen) -> float:
     s = simulation.snapshot
     return s.mass[chosen] @ s.position[chosen, 1] / s.mass[chosen].sum()
@@ -106,11 +117,12 @@ def height(simulation, chosen) -> float:
 
 def kept(simulation, scheme) -> list[Figure]:
     s = simulation.snapshot
-    walls = np.array([simulation.ledger[f"wall_impulse_{axis}"] for axis in "xy"])
+    dim = s.position.shape[1]
+    walls = np.array([simulation.ledger[f"wall_impulse_{axis}"] for axis in "xyz"[:dim]])
     came = s.mass.sum() * np.array(simulation.scene.gravity_vector) * simulation.time
     off = np.abs(s.mass @ s.velocity - came - walls).max()
     scale = np.abs(came).max() + np.abs(walls).max()
-    contributions = simulation.step_count * 4 * simulation.solver.basis.support**2
+    contributions = simulation.step_count * (2 * simulation.solver.basis.support) ** dim
     return [
         Figure("|mass - start|", abs(s.mass.sum() - simulation.start_mass), 0.0),
         Figure("momentum", off / scale, contributions * U[scheme.precision]),
@@ -120,5 +132,5 @@ def kept(simulation, scheme) -> list[Figure]:
 CASE = Case(
     "H18", "Density 1000:1", measure,
     schemes("linear: flip; gimp: flip, apic; quadratic: flip, apic, mls; cubic: flip, mls"),
-    schemes("quadratic: mls"), reported=("linear flip",),
+    schemes("quadratic: mls"), reported=("linear flip",), dimensions=(2, 3),
 )  # fmt: skip

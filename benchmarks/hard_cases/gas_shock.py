@@ -49,5 +49,5 @@ def measure(scheme, draw: Draw) -> Found:
 CASE = Case(
     "H23", "Gas shock", measure,
     schemes("linear: flip musl; gimp: flip; quadratic: pic, flip, apic, mls; cubic: flip, mls"),
-    schemes("quadratic: mls"),
+    schemes("quadratic: mls"), dimensions=(2, 3),
 )  # fmt: skip
