@@ -98,16 +98,18 @@ def stress_share(
                 p, particles, law, material, grid, transfer, dt, dt_next, alpha,
                 velocity, stress, move, tally, row + block,
             )  # fmt: skip
-            if ti.static(move):  # ti.max would spoil the packing of lanes
-                if speed_squared > fastest:
-                    fastest = speed_squared
+            # ti.max would spoil the packing of lanes
+            if ti.static(move) and speed_squared > fastest:
+                fastest = speed_squared
+            if ti.static(stress):
                 if rate_squared > steepest:
                     steepest = rate_squared
                 if compression > tightest:
                     tightest = compression
-    if ti.static(move):  # on a GPU each particle comes here: few of them have to wait for another
-        if fastest > grid.speed_squared[None]:
-            ti.atomic_max(grid.speed_squared[None], fastest)
+    # On a GPU each particle comes here: few of them have to wait for another.
+    if ti.static(move) and fastest > grid.speed_squared[None]:
+        ti.atomic_max(grid.speed_squared[None], fastest)
+    if ti.static(stress):
         if steepest > grid.rate_squared[None]:
             ti.atomic_max(grid.rate_squared[None], steepest)
         if tightest > grid.compression[None]:
@@ -139,8 +141,8 @@ def update_stress(
 
     On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
-    has left the closed domain, or the number of particles; and once particles have moved the grid
-    has the largest |sum_i w_ip v_i|^2, |L|^2 and - tr L of this step."""
+    has left the closed domain, or the number of particles; the grid has the largest |L|^2 and
+    - tr L that strain particles, and once these have moved the largest |sum_i w_ip v_i|^2."""
     update_particles(
         particles, group.law, group.number, grid, transfer, group.begin, group.end,
         dt, dt_next, alpha, velocity, stress, move, tally, grid.workers(group.end - group.begin),
