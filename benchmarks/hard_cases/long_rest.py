@@ -7,8 +7,9 @@ rests for 2e5 steps.
 
 Drift at most 1e-3 cells in 1e5 steps, along any axis, without a trend that chance would make in
 less than one of 500 runs; |v| <= 1e-4 sqrt(g H) (hard_cases.md, H6).  What the grid makes of the
-equilibrium differs from it, so that the block first swings, which USL damps: FLIP in 3D has |v| = 2.1e-4 of sqrt(g H) after 5e3
-steps, 1.0e-4 after 3e4, 5e-5 after 6e4.  The first fifth does not count."""
+equilibrium differs from it, so that the block first swings, which USL damps: of FLIP in 3D |v| is
+2.1e-4 sqrt(g H) after 5e3 steps, 1.0e-4 after 3e4, 5e-5 after 6e4.  The first fifth does not
+count."""
 
 from typing import Any
 
