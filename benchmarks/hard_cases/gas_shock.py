@@ -9,7 +9,11 @@ Hugoniot (Toro 2009, section 3.1.3) give its speed and the state behind the shoc
 
 and the shock leaves the wall at M - u.  Density, pressure and J stay positive (hard_cases.md, H23);
 the mean error by volume of the density, up to twice the way of the shock, stays below 0.05 of
-rho_2, the bound that the document gives for the tube."""
+rho_2, the bound that the document gives for the tube.
+
+GIMP with FLIP must fail it, 0.066: behind the shock the mean density is right, to 0.3 %, but that
+of single particles scatters by 13 %, with steps of 0.4 times the length too.  (Its particles keep
+their width of 1/3 cell in a gas packed 5.7 times, which may be why; splines have 0.03 to 0.04.)"""
 
 import numpy as np
 from experiments import schemes
@@ -49,5 +53,5 @@ def measure(scheme, draw: Draw) -> Found:
 CASE = Case(
     "H23", "Gas shock", measure,
     schemes("linear: flip musl; gimp: flip; quadratic: pic, flip, apic, mls; cubic: flip, mls"),
-    schemes("quadratic: mls"), dimensions=(2, 3),
+    schemes("quadratic: mls"), fails={"gimp flip": "L1(rho) / rho_2"}, dimensions=(2, 3),
 )  # fmt: skip
