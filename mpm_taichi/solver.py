@@ -93,10 +93,12 @@ class Solver:
         """`part` of the lightest particle's mass [kg].  Not given: 0 for smooth bases.  Hat
         functions have gradients that stay where the weight goes to 0, so a weight of the size of
         the rounding error of x / dx would take a full force; so do modified splines, but only where
-        a wall bends them."""
+        a wall bends them.  Under MUSL and USF the speed that the force gives strains nothing, and
+        particles take as much of it as they weigh there: hat functions have 0 too."""
         if part is None:
             unbent = self.basis.modified and not self.walls
-            smooth = unbent or self.basis.steepness(0.25) is not None
+            harmless = self.stress_update != "usl" and not self.basis.modified
+            smooth = unbent or harmless or self.basis.steepness(0.25) is not None
             part = 0.0 if smooth else 16 * np.finfo(self.particles.dtype).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
@@ -138,9 +140,11 @@ class Solver:
         takes L from the velocities at the start, MUSL (modified USL) from those of the updated
         particles, mapped to the nodes once more."""
         self.sort_if_due()
+        rates = None
         if self.stress_update == "usf":
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
+            rates = self.rates()
             yield "stress"
         yield from self.map_motion(time, dt)
         if self.stress_update == "usl":
@@ -154,11 +158,13 @@ class Solver:
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
             yield "stress"
-        self.motion = Motion(
-            sqrt(self.grid.speed_squared[None]), sqrt(self.grid.rate_squared[None]),
-            self.grid.compression[None],
-        )  # fmt: skip
+        self.motion = Motion(sqrt(self.grid.speed_squared[None]), *(rates or self.rates()))
         self.drift += dt * self.motion.speed / self.grid.dx
+
+    def rates(self) -> tuple[float, float]:
+        """The largest |grad v| and - div v [1/s] that have strained particles since the nodes were
+        cleared."""
+        return sqrt(self.grid.rate_squared[None]), self.grid.compression[None]
 
     def take_whole_steps(self, clock: Clock, most: int):
         """Up to `most` steps as `step` would take them, without a return to Python."""
@@ -212,6 +218,8 @@ class Solver:
         speed, fastest_one, rate, steepest_one = fastest(
             self.particles, self.grid, self.basis, self.transfer, dt
         )
+        if self.stress_update == "usf":  # the nodes have been pushed since they strained
+            return self.motion._replace(fastest=fastest_one, steepest=steepest_one)
         return Motion(
             sqrt(speed), sqrt(rate), self.grid.compression[None], fastest_one, steepest_one
         )

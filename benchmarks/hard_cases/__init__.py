@@ -6,7 +6,8 @@ Others of the document are tests by themselves, under tests/:
     H5   column under gravity            scenes/test_column.py
     H10  superposed rotation             properties/test_materials.py, test_polar.py
     H11  vortex, manufactured motion     scenes/test_vortex.py, test_manufactured.py
-    H19  exit and edges                  faults/test_outside.py, properties/test_symmetries.py
+    H19  exit, edges, thin domains       faults/test_outside.py, test_thin.py,
+                                         properties/test_symmetries.py
     H23  shock tube                      scenes/test_sod.py (the piston is here)
     H24  Taylor bar                      scenes/test_taylor_bar.py
     H25  yield surfaces, dissipation     properties/test_materials.py (the slope is here)

@@ -9,7 +9,14 @@ Hugoniot (Toro 2009, section 3.1.3) give its speed and the state behind the shoc
 
 and the shock leaves the wall at M - u.  Density, pressure and J stay positive (hard_cases.md, H23);
 the mean error by volume of the density, up to twice the way of the shock, stays below 0.05 of
-rho_2, the bound that the document gives for the tube."""
+rho_2, the bound that the document gives for the tube.
+
+GIMP with FLIP must fail it, 0.066: behind the shock the mean density is right, to 0.3 %, but that
+of single particles scatters by 13 %, with steps of 0.4 times the length too.  (Its particles keep
+their width of 1/3 cell in a gas packed 5.7 times, which may be why; quadratic splines
+have 0.03 to 0.04.)  Cubic MLS must fail it too, 0.054: its density behind the shock is 6 % too
+high, with a scatter of 1 %, and the shock lags.  (What the transfer takes from the motion does not
+become heat here, so that the gas is too cold.)"""
 
 import numpy as np
 from experiments import schemes
@@ -50,4 +57,5 @@ CASE = Case(
     "H23", "Gas shock", measure,
     schemes("linear: flip musl; gimp: flip; quadratic: pic, flip, apic, mls; cubic: flip, mls"),
     schemes("quadratic: mls"), dimensions=(2, 3),
+    fails={"gimp flip": "L1(rho) / rho_2", "cubic mls": "L1(rho) / rho_2"},
 )  # fmt: skip

@@ -43,7 +43,7 @@ def update_particle(
     p, particles: Template, law: Template, material, grid: Template, transfer: Template,
     dt, dt_next, alpha, velocity: Template, stress: Template, move: Template, tally: Template, row,
 ):  # fmt: skip
-    """Returns |v_pic|^2, |L|^2, the sum of squares, and - tr L."""
+    """Returns |v_pic|^2 if it moves, and |L|^2, the sum of squares, and - tr L if that strains."""
     dim = ti.static(grid.dim)
     g = grid.constants[None]
     m = particles.m[p]
@@ -77,7 +77,12 @@ def update_particle(
         x = particles.x[p] + dt * v_pic
         particles.x[p] = x
         note_if_lost(p, x, particles, grid)
-    return v_pic.norm_sqr(), L.norm_sqr(), -L.trace()
+    speed_squared, rate_squared, compression = 0.0, 0.0, 0.0
+    if ti.static(move):
+        speed_squared = v_pic.norm_sqr()
+    if ti.static(stress):
+        rate_squared, compression = L.norm_sqr(), -L.trace()
+    return speed_squared, rate_squared, compression
 
 
 @ti.func
@@ -110,16 +115,16 @@ def stress_share(
                 p, particles, law, material, grid, transfer, dt, dt_next, alpha,
                 velocity, stress, move, tally, row + block,
             )  # fmt: skip
-            if ti.static(move and grid.atomic):
+            if ti.static(grid.atomic):
                 note_motion(grid, speed_squared, rate_squared, compression)
-            elif ti.static(move):  # ti.max would spoil the packing of lanes
+            elif ti.static(move or stress):  # ti.max would spoil the packing of lanes
                 if speed_squared > fastest:
                     fastest = speed_squared
                 if rate_squared > steepest:
                     steepest = rate_squared
                 if compression > tightest:
                     tightest = compression
-    if ti.static(move and not grid.atomic):
+    if ti.static((move or stress) and not grid.atomic):
         note_motion(grid, fastest, steepest, tightest)
 
 
@@ -148,8 +153,8 @@ def update_stress(
 
     On return the rows hold what P2G scatters: (m v, m), the affine momentum and the impulse
     T = - dt_next V0 tau of the step to come; `particles.lost` is the least id of a particle that
-    has left the closed domain, or the number of particles; and once particles have moved the grid
-    has the largest |sum_i w_ip v_i|^2, |L|^2 and - tr L of this step."""
+    has left the closed domain, or the number of particles; the grid has the largest |L|^2 and
+    - tr L that strain particles, and once these have moved the largest |sum_i w_ip v_i|^2."""
     update_particles(
         particles, group.law, group.number, grid, transfer, group.begin, group.end,
         dt, dt_next, alpha, velocity, stress, move, tally, grid.workers(group.end - group.begin),

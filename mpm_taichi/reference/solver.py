@@ -46,10 +46,11 @@ class Solver:
 
     def _mass_cutoff(self, part, bodies, cells):
         """`part` of the lightest particle's mass [kg]; not given: the rounding error of a weight
-        where gradients do not vanish with the weight."""
+        where gradients do not vanish with the weight, and strain follows from forces."""
         if part is None:
             unbent = self.basis.modified and not self.walls
-            smooth = unbent or self.basis.steepness(0.25) is not None
+            harmless = self.stress_update != "usl" and not self.basis.modified
+            smooth = unbent or harmless or self.basis.steepness(0.25) is not None
             part = 0.0 if smooth else 16 * np.finfo(float).eps * max(cells)
         lightest = min((body.material.density * body.V0).min() for body in bodies)
         return float(part * lightest)
@@ -72,9 +73,11 @@ class Solver:
         """Advance from `time` by dt [s], the next step being of length dt_next; returns the largest
         |sum_i w_i v_i| [m/s], |L| and - tr L [1/s] of all particles."""
         wrap(self.particles, self.grid)
+        rates = None
         if self.stress_update == "usf":
             self.map_gradient()
             self.update(dt, dt, velocity=False, move=False)
+            rates = self.rates()
         self.map_motion(time, dt)
         if self.stress_update == "usl":
             self.update(dt, dt_next)
@@ -84,7 +87,11 @@ class Solver:
             self.update(dt, dt_next, stress=False, move=False)
             self.map_gradient()
             self.update(dt, dt_next, velocity=False)
-        return sqrt(self.grid.speed_squared), sqrt(self.grid.rate_squared), self.grid.compression
+        return sqrt(self.grid.speed_squared), *(rates or self.rates())
+
+    def rates(self):
+        """The largest |grad v| and - div v [1/s] that have strained particles."""
+        return sqrt(self.grid.rate_squared), self.grid.compression
 
     def map_motion(self, time, dt):
         """Particles to nodes, the motion of the nodes, and back."""

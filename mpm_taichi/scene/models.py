@@ -107,7 +107,7 @@ class Method(Model):
         ge=0,
         lt=1,
         description="nodes up to this part of the lightest particle's mass are taken as empty, and "
-        "counted; default: rounding errors for the linear basis, none for splines",
+        "counted; default: rounding errors for the linear basis under usl, none for splines",
     )
     precision: Literal["f32", "f64"] | None = Field(
         default=None, description="floating-point numbers; not given: what suits the device"

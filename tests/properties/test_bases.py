@@ -61,6 +61,19 @@ def test_partition_of_unity_and_linear_reproduction(exact, rng, basis):
 
 
 @pytest.mark.parametrize("basis", BASES)
+def test_rounding_neither_brakes_nor_turns(exact, rng, basis):
+    """What sum w - 1 is in the mean of a cell takes speed away in every step, sum w (i - xi) turns:
+    both 0 to a tenth of u = U / 2.  (At a place they are half of u: the mean of 40,000 has 0.003.
+    Cubic splines with a rounded third in two weights have 0.7.)"""
+    xi = 4 + rng.random((20000, 2))
+    first, w, _ = table(basis, xi)
+    w = w.astype(np.longdouble)
+    r = first[:, None, :] + np.arange(basis.support)[None, :, None] - xi[:, None, :]
+    assert abs((w.sum(axis=1) - 1).mean()) < 0.05 * U
+    assert abs((w * r).sum(axis=1).mean()) < 0.05 * U
+
+
+@pytest.mark.parametrize("basis", BASES)
 def test_slopes_are_derivatives(exact, rng, basis):
     """dw by central differences, h = 1e-6: error h^2 and U / h, so 1e-9; away from the knots."""
     xi, half = coordinates(rng)[:200], 0.05 + 0.45 * rng.random()

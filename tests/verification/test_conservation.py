@@ -9,6 +9,10 @@ import pytest
 from mpm_taichi.bases import GIMP, CubicBSpline, Linear, QuadraticBSpline
 from mpm_taichi.kernels.clear import clear
 from mpm_taichi.kernels.p2g import p2g
+from mpm_taichi.particles import BodyPoints
+from mpm_taichi.reference import bases as twin_bases
+from mpm_taichi.reference import transfers as twin_transfers
+from mpm_taichi.reference.solver import Solver as TwinSolver
 from mpm_taichi.transfers import APIC, FLIP, MLS, PIC, TPIC
 
 from ..cases import CASES
@@ -148,3 +152,20 @@ def test_breathing_ball_keeps_its_energy(living, rng):
         shares.append(elastic / total)
     assert max(shares) > 0.8
     assert min(shares[np.argmax(shares) :]) < 0.2
+
+
+@pytest.mark.parametrize("order", ["usf", "musl"])
+@pytest.mark.parametrize("past", [0.0, 1e-15])
+def test_a_node_barely_touched_moves_along(order, past):
+    """Four particles fly, the foremost on a node or just past it.  Hats have their whole slope for
+    the next node there, so that this must move as they do, and F = I stays: 1e-14, by the NumPy
+    twin.  (Taken as empty it stands still, and strains them by v dt / dx = 0.02.)"""
+    x = np.array([[3.5, 3.5], [4.0, 3.5], [3.5, 4.0], [4.0, 4.0]]) + past
+    v = np.tile([0.2, 0.1], (4, 1))
+    twin = TwinSolver(
+        [BodyPoints(JELLY, x, v, np.full(4, 0.25))], (8, 8), 1.0, twin_bases.Linear,
+        twin_transfers.FLIP, (), [0.0, 0.0], stress_update=order,
+    )  # fmt: skip
+    twin.start(0.1)
+    twin.step(0.0, 0.1, 0.1)
+    assert np.abs(twin.particles.H).max() < 1e-14

@@ -2,6 +2,9 @@
 
 import numpy as np
 
+TOUCH = 2.0**-52
+"""The least weight: a particle on a node touches the next one, too."""
+
 
 class Linear:
     """w = 1 - |r| for |r| < 1."""
@@ -24,7 +27,7 @@ class Linear:
 
     @staticmethod
     def weights(a, half):
-        return np.array([1 - abs(a - k) for k in range(2)])
+        return np.array([1 - a, np.maximum(a, TOUCH)])
 
     @staticmethod
     def slopes(a, half):

@@ -20,9 +20,9 @@ def update_stress(
     H <- H + dt L (I + H), stress and state by the law; x <- x + dt sum_i w_ip v_i.
 
     On return A and T = - dt_next V0 tau are what P2G scatters; `particles.lost` is the least id of
-    a particle outside the closed domain, or the number of particles; once particles have moved the
-    grid has the largest |sum_i w_ip v_i|^2, |L|^2 and - tr L of this step.  A `tally` has noted the
-    work of the stress."""
+    a particle outside the closed domain, or the number of particles; the grid has the largest |L|^2
+    and - tr L that have strained particles, and once these have moved the largest
+    |sum_i w_ip v_i|^2.  A `tally` has noted the work of the stress."""
     c = group.constants
     for p in group.members:
         L = particles.S[p]
@@ -37,6 +37,8 @@ def update_stress(
             particles.H[p], group.state[p] = H_new, s
             T = (-dt_next * particles.V0[p]) * tau
             particles.T[p] = T
+            grid.rate_squared = max(grid.rate_squared, (L**2).sum())
+            grid.compression = max(grid.compression, -L.trace())
             if tally:
                 note_stress(p, L, particles.V0[p] * tau, dt, particles, tally)
         if velocity and transfer.affine:
@@ -46,6 +48,4 @@ def update_stress(
         if move:
             particles.x[p] = particles.x[p] + dt * particles.v_pic[p]
             grid.speed_squared = max(grid.speed_squared, (particles.v_pic[p] ** 2).sum())
-            grid.rate_squared = max(grid.rate_squared, (L**2).sum())
-            grid.compression = max(grid.compression, -L.trace())
             note_if_lost(p, particles.x[p], particles, grid)
