@@ -15,12 +15,12 @@ from workload import MATERIAL, block, our_solver, step_length
 
 from mpm_taichi import runtime
 from mpm_taichi.kernels.clear import clear
+from mpm_taichi.kernels.clock import Clock
 from mpm_taichi.kernels.g2p import g2p
 from mpm_taichi.kernels.grid_update import grid_update
 from mpm_taichi.kernels.p2g import p2g
 from mpm_taichi.kernels.residual import take_residual
 from mpm_taichi.kernels.sort import sort
-from mpm_taichi.kernels.whole_steps import Clock
 from mpm_taichi.time_step import HUGE, Motion, Pace
 
 SORTS, STEPS = 3, 3  # of a turn, and steps before each sort

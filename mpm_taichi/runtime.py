@@ -69,10 +69,8 @@ def stop() -> None:
 def _unlock_cache():
     """Taichi's cache of kernels is locked while it is written or read, for less than a second; a
     process killed then leaves a lock with which no other would find a kernel again."""
-    folder = os.environ.get(
-        "TI_OFFLINE_CACHE_FILE_PATH", impl.default_cfg().offline_cache_file_path
-    )
-    lock = Path(folder, "ticache.lock")
+    usual = str(impl.default_cfg().offline_cache_file_path)
+    lock = Path(os.environ.get("TI_OFFLINE_CACHE_FILE_PATH", usual), "ticache.lock")
     with contextlib.suppress(OSError):
         if time.time() - lock.stat().st_mtime > LEFT_BEHIND:
             lock.unlink()

@@ -19,6 +19,7 @@ MEMORY_AND_THREADS = {
         "outside",
         "rows",
         "sort",
+        "tiles",
         "time_step",
         "whole_step",
         "whole_steps",

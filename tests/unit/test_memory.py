@@ -329,7 +329,7 @@ def test_check_and_report_say_it(tmp_path, capfd):
     assert cli.main(["check", str(path)]) == 0
     (line,) = [line for line in capfd.readouterr().err.splitlines() if "memory" in line]
     assert line == (
-        "memory: 12.1 KiB for particles (388 B each), 19.4 KiB for nodes (118 B each), "
+        "memory: 12.1 KiB for particles (388 B each), 19.5 KiB for nodes (118 B each), "
         "12.5 KiB for output"
     )
     scene = load_scene(path)

@@ -129,6 +129,7 @@ def test_a_lock_left_behind_is_removed(tmp_path, monkeypatch):
     monkeypatch.setenv("TI_OFFLINE_CACHE_FILE_PATH", str(tmp_path))
     for age, stays in ((1, True), (90, False)):
         lock.touch()
-        os.utime(lock, (time.time() - age,) * 2)
+        then = time.time() - age
+        os.utime(lock, (then, then))
         runtime.start("cpu")
         assert lock.exists() == stays

@@ -50,7 +50,7 @@ def run(scene, device, precision):
         bounds.extend(codes)
         note(taken, codes)
 
-    simulation.time_step.note = remember
+    simulation.time_step.note = remember  # pyright: ignore[reportAttributeAccessIssue]
     for _ in simulation.frames():
         times.append(simulation.time)
     particles = simulation.solver.particles
@@ -70,7 +70,7 @@ def steps_until_lost(scene, device, precision):
         simulation.advance()
     except RunError:
         return simulation.step_count
-    return None
+    return 0
 
 
 def main(device, precision, path):
