@@ -9,17 +9,20 @@ can bear so much: a lattice under tension is unstable from about one particle pe
 nodes that move to and fro strain no particle, but shift where its tension acts.  The eigenvalues of
 one step of a stretched lattice (lattice_stability.py) have these growth rates [c / cell]:
 
-    stretch           1.4    1.8    1.9    2.0    2.4
-    quadratic MLS    .000   .002    .16    .30    .68
-    quadratic APIC   .02    .01     .10    .31    .43
-    quadratic FLIP   .04    .06     .57    .92   1.6
-    cubic MLS        .000   .000    .03    .11    .24
-    cubic FLIP       .002   .000    .23    .51   1.0
+    stretch           1.2    1.4    1.8    1.9    2.0    2.4
+    quadratic MLS    .002   .000   .002    .16    .30    .68
+    quadratic APIC   .003   .02    .01     .10    .31    .43
+    quadratic FLIP   .004   .04    .06     .57    .92   1.6
+      under MUSL     .02    .07    .12     .60    .92   1.6
+    cubic MLS        .000   .000   .000    .03    .11    .24
+    cubic FLIP       .000   .002   .000    .23    .51   1.0
 
 and the bar breaks there: at 1.98 (quadratic MLS), 1.83 (FLIP), 2.02 (cubic MLS), 1.79 (GIMP APIC).
 So the bound is 1.7 of these, and the run tells of it from a spacing of 0.8 cells on, a stretch of
 1.6.  Linear must fail: particles cross cells (numerics.md, chapter 3, row 1), the reaction is 5 %
-too small from 1.05 on, which no stretch tells.
+too small from 1.05 on, which no stretch tells.  So must quadratic FLIP under MUSL: it grows early,
+and a pull that takes some thousand times as long as a wave from cell to cell gives it the time; it
+is 5 % too weak from 1.3 on.
 
 Grips of 4 cells at both ends are drawn apart by springs, b = k (where they should be - x), from
 rest and so slowly (150 times as long as a wave takes through the bar) that all is in balance; the
@@ -122,5 +125,6 @@ CASE = Case(
         "linear: flip musl; gimp: flip, apic; quadratic: flip, flip musl, apic, mls",
         "cubic: flip, mls",
     ),
-    schemes("quadratic: mls"), fails={"linear flip musl": "stretch that bears"}, dimensions=(2, 3),
+    schemes("quadratic: mls"), dimensions=(2, 3),
+    fails=dict.fromkeys(("linear flip musl", "quadratic flip musl"), "stretch that bears"),
 )  # fmt: skip
