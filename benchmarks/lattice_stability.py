@@ -4,9 +4,9 @@
 
 A lattice of particles under uniform tension, two per cell before it was stretched, in a row of
 cells that closes on itself: 1D, neo-Hookean with nu = 0, E = rho = dx = 1.  The largest eigenvalue
-of one short step, USL where nothing is said, whose Jacobian is taken by differences, worst of several places in the cells,
-gives the growth rate of what was disturbed [c / cell].  NumPy alone, written for this: hard case
-H12 is judged by it."""
+of one short step, USL where nothing is said, whose Jacobian is taken by differences, worst of
+several places in the cells, gives the growth rate of what was disturbed [c / cell].  NumPy alone,
+written for this: hard case H12 is judged by it."""
 
 import numpy as np
 from tables import markdown
