@@ -6,14 +6,18 @@ turning frame, by 2 A = (w R / c)^2 (2 lam + 3 mu) / (4 (lam + mu)), 0.6 % with 
 without strain and swings beyond, at the center by more than as much again, since waves from the rim
 meet there: the radial modes of linear elasticity, added up (finite elements along r), come to J =
 1.0133 within five revolutions (hard_cases.md has 1.01, of a set-up that it does not give).  PIC
-loses all, FLIP 7 %, FLIP with 1 % of PIC 80 % (hard_cases.md, H9, measured)."""
+loses all, FLIP 7 %, FLIP with 1 % of PIC 80 % (hard_cases.md, H9, measured).
+
+In f32 rounding is left, 1e-5 where it averages out.  In 3D the disk turns about z and particles
+keep their places along it, so that the sum of their weights there is off 1 by the same part of u in
+every step: n u after n steps (at z = 1/4 and 3/4 cubic splines have 2 to 8e-5, of 3e-4)."""
 
 import numpy as np
 from experiments import schemes
 
 from mpm_taichi import diagnostics
 
-from .case import Case, Draw, Figure, Found
+from .case import Case, Draw, Figure, Found, U
 from .scenes import clamps, simulate, solid, vector
 
 R, CELLS, OMEGA = 8, 24, 0.1 / 8
@@ -57,7 +61,9 @@ def once(scheme, offset, w, dim) -> Found:
         energies.append(diagnostics.kinetic_energy(s) + diagnostics.elastic_energy(s))
         radii.append(np.linalg.norm(s.position[:, :2] - center, axis=1).max())
         volumes += [s.volume_ratio.min(), s.volume_ratio.max()]
-    exact = 1e-11 if scheme.precision == "f64" else 1e-5
+    exact = 1e-11
+    if scheme.precision == "f32":
+        exact = simulation.step_count * U["f32"] if dim == 3 else 1e-5
     figures = [
         Figure("|dL| / L", np.abs(np.array(moments) / moments[0] - 1).max(), exact),
         Figure("dE / E", energies[-1] / energies[0] - 1, -0.005, at_least=True),
