@@ -12,8 +12,9 @@ vanishes along an axis, and tau with it.  Only a total Lagrangian form could tur
 holds codes to that: a particle that changes sides has had a step above the limit.
 
 With hat functions and USL no step is short enough for a node that little matter touches
-(numerics.md 4.1; H7, H8), and random stress meets such nodes at once: energy grows 18 times, or the run ends.  MUSL
-has no such limit; under the plate it gains 1.4 % where particles cross cells (H2), reported.
+(numerics.md 4.1; H7, H8), and random stress meets such nodes at once: energy grows 18 times, or
+the run ends.  MUSL has no such limit; under the plate it gains 1.4 % where particles cross cells
+(H2), reported.
 
 A law in ln J stops, and names the least id of those with J <= 0.  Under the plate J stays above 0
 with either law: it is a product of such factors."""
