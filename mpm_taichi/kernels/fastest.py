@@ -25,7 +25,7 @@ def motion(p, particles: Template, grid: Template, basis: Template, transfer: Te
     v = zero
     moments = [zero for row in particles.layout.moments]
     slopes = [zero for row in particles.layout.gradient]
-    gather(index(grid, base), grid, w, dw, v, moments, slopes)
+    gather(index(grid, base), 0, grid, w, dw, v, moments, slopes)
     B, L = ti.Matrix.zero(float, dim, dim), ti.Matrix.zero(float, dim, dim)
     for d in ti.static(range(len(moments))):
         for e in ti.static(range(dim)):

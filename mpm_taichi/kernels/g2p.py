@@ -1,40 +1,40 @@
-"""Stage 4: nodes to particles, line by line (sum factorization along the last axis)."""
+"""Stage 4: nodes to particles, axis by axis (sum factorization)."""
 
 import taichi as ti
 
 from ..runtime import Template
 from ..stages import stage
 from .blocks import blocks_of, first_block
-from .stencil import index, line_slope, line_weight, offset, weigh
+from .stencil import index, weigh
 from .tally import NoTally, gathered, note_particles
 
 
 @ti.func
-def gather(first, grid: Template, w, dw, v: Template, B: Template, S: Template):
+def gather(at, axis: Template, grid: Template, w, dw, v: Template, B: Template, S: Template):
     """v += sum w_i n_i, B[d] += sum w_i n_i o_i[d], S[d] += sum n_i dw_i[d] over the records n_i of
-    a stencil, o_i the offset of node i from its first node [cells].
+    a stencil along the axes from `axis` on, o_i the offset of node i from its first node [cells].
 
-    B and S are lists of vectors and may be empty."""
-    last = ti.static(grid.dim - 1)
-    for lead in ti.static(grid.lines):
-        at = first + offset(grid, lead)
+    B and S are lists of vectors and may be empty; v must be 0 before.  From the last node back, so
+    that moments need no products: q1 + 2 q2 + 3 q3 = (q3) + (q3 + q2) + (q3 + q2 + q1)."""
+    for back in ti.static(range(w.n)):
+        k = ti.static(w.n - 1 - back)
         zero = ti.Vector.zero(float, 4)
-        line, moment, slope = zero, zero, zero
-        for k in ti.static(range(w.n)):
-            lanes = grid.node[at + k]
-            line += w[k, last] * lanes
-            moment += (k * w[k, last]) * lanes
-            slope += dw[k, last] * lanes
-        w_line = line_weight(w, lead)
-        v += w_line * line
-        if ti.static(B):
-            B[last] += w_line * moment
-            for d in ti.static(range(last)):
-                B[d] += (w_line * lead[d]) * line
+        part = zero
+        if ti.static(axis == grid.dim - 1):
+            part = grid.node[at + k]
+        else:
+            B_part, S_part = [zero for _ in B], [zero for _ in S]
+            gather(at + k * grid.strides[axis], axis + 1, grid, w, dw, part, B_part, S_part)
+            for d in ti.static(range(axis + 1, grid.dim)):
+                if ti.static(B):
+                    B[d] += w[k, axis] * B_part[d]
+                if ti.static(S):
+                    S[d] += w[k, axis] * S_part[d]
+        v += w[k, axis] * part
+        if ti.static(B and k > 0):
+            B[axis] += v
         if ti.static(S):
-            for d in ti.static(range(last)):
-                S[d] += line_slope(w, dw, lead, d) * line
-            S[last] += w_line * slope
+            S[axis] += dw[k, axis] * part
 
 
 @ti.func
@@ -46,17 +46,17 @@ def gather_particle(
     zero = ti.Vector.zero(float, 4)
     v, dv = zero, zero
     if ti.static(what == "residual"):
-        gather(first + grid.apart, grid, w, dw, v, [], [])
+        gather(first + grid.apart, 0, grid, w, dw, v, [], [])
         row = ti.static(particles.layout.residual)
         particles.rows[p, row] = particles.rows[p, row] - particles.m[p] * v
         return
     B = [zero for row in particles.layout.moments if what == "all"]
     S = [zero for row in particles.layout.gradient]
-    gather(first, grid, w, dw, v, B, S)
+    gather(first, 0, grid, w, dw, v, B, S)
     # Rows in the order of memory: then the stores pack into lanes.
     if ti.static(what == "all"):
         if ti.static(transfer.increment):
-            gather(first + grid.apart, grid, w, dw, dv, [], [])
+            gather(first + grid.apart, 0, grid, w, dw, dv, [], [])
             particles.rows[p, 0] = particles.rows[p, 0] + particles.m[p] * dv
         else:
             particles.rows[p, 0] = v
