@@ -1,10 +1,9 @@
-"""Time of this process and of its threads, and the clock of the processor."""
+"""CPU time of the threads of this process, and the clock of the processor."""
 
 import os
 import platform
 import time
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import taichi as ti
@@ -15,20 +14,6 @@ LINKS = 5_000_000
 CYCLES = 4
 """Of a link of the chain: a product of integers takes 3 on every x86-64 since 2008, the exclusive
 or one more, and each waits for the one before."""
-
-
-class Seconds(NamedTuple):
-    """CPU and wall time [s]."""
-
-    cpu: float
-    wall: float
-
-    def __sub__(self, other):
-        return Seconds(self.cpu - other.cpu, self.wall - other.wall)
-
-
-def now() -> Seconds:
-    return Seconds(time.process_time(), time.perf_counter())
 
 
 def of_workers() -> dict[str, float]:

@@ -8,10 +8,10 @@ says little, and CPU time over the cores is what a quiet computer would need at 
 
 import argparse
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
+from stopwatch import spent
 
 from mpm_taichi import runtime
 from mpm_taichi.renderers import Frame, draw, write_png
@@ -47,9 +47,8 @@ def frame_of(dim: int) -> Frame:
 
 def measured(work) -> tuple[float, float]:
     """CPU and wall time [ms]."""
-    cpu, wall = time.process_time(), time.perf_counter()
-    work()
-    return 1e3 * (time.process_time() - cpu), 1e3 * (time.perf_counter() - wall)
+    took = spent(work)
+    return 1e3 * took.cpu, 1e3 * took.wall
 
 
 def time_of(frame: Frame, size: int, repeats: int) -> list[float]:

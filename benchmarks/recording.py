@@ -9,10 +9,11 @@ the rows of the history; with pictures."""
 
 import argparse
 import tempfile
-import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+from stopwatch import spent
 
 from mpm_taichi import Simulation, recorders
 from mpm_taichi.scene import Body, Box, Domain, Lattice, NeoHookean, Output, Scene, Time
@@ -42,20 +43,18 @@ def scene(dim: int, steps: int, frames: int) -> Scene:
 
 def per_output(simulation, kinds) -> dict[str, float]:
     """CPU time [ms] of the steps and of each recorder from one output to the next."""
-    spent: dict[str, list[float]] = {"steps": [], **{name: [] for name in kinds}}
+    times: dict[str, list[float]] = {"steps": [], **{name: [] for name in kinds}}
     while not simulation.is_done:
-        now, landed = dict.fromkeys(spent, 0.0), False
+        now, landed = dict.fromkeys(times, 0.0), False
         while not landed:
-            began = time.process_time()
-            landed = simulation.advance(EVERY - simulation.step_count % EVERY)
-            now["steps"] += time.process_time() - began
+            most = EVERY - simulation.step_count % EVERY
+            cpu, _wall, landed = spent(partial(simulation.advance, most))
+            now["steps"] += cpu
             for name, recorder in kinds.items():
-                began = time.process_time()
-                recorder.record(simulation, landed)
-                now[name] += time.process_time() - began
+                now[name] += spent(partial(recorder.record, simulation, landed)).cpu
         for name, seconds in now.items():
-            spent[name].append(1e3 * seconds)
-    return {name: float(np.median(values[2:])) for name, values in spent.items()}
+            times[name].append(1e3 * seconds)
+    return {name: float(np.median(values[2:])) for name, values in times.items()}
 
 
 def main() -> None:

@@ -13,6 +13,8 @@ import sys
 import time
 from pathlib import Path
 
+from stopwatch import spent
+
 WARM_UP = 3
 SCENES = Path(__file__).parents[1] / "scenes"
 
@@ -81,11 +83,10 @@ class Stepping:
         """CPU and wall seconds of steps; errors are recorded with the clock stopped."""
         simulation, cpu, wall = self.simulation, 0.0, 0.0
         while not (simulation.is_done or enough()):
-            cpu_before, wall_before = time.process_time(), time.perf_counter()
-            landed = simulation.advance()
-            cpu += time.process_time() - cpu_before
-            wall += time.perf_counter() - wall_before
-            if landed:
+            step = spent(simulation.advance)
+            cpu += step.cpu
+            wall += step.wall
+            if step.result:
                 self.errors.record(simulation, is_output=True)
         return cpu, wall
 

@@ -8,7 +8,8 @@ import time
 
 import numpy as np
 from allocation import allocated, fields_of
-from clocks import clock_ghz, now, of_workers
+from clocks import clock_ghz, of_workers
+from stopwatch import spent
 from taichi_example import TaichiExample
 from textbook import Textbook
 from workload import MATERIAL, block, our_solver, step_length
@@ -93,11 +94,9 @@ class Stages:
         workers = {}
 
         def take(name, function):
-            before = now()
-            function()
-            spent = now() - before
-            cpu[name].append(spent.cpu / self.particles * 1e9)
-            wall[name].append(spent.wall / self.particles * 1e9)
+            took = spent(function)
+            cpu[name].append(took.cpu / self.particles * 1e9)
+            wall[name].append(took.wall / self.particles * 1e9)
 
         for _ in range(SORTS):
             before = of_workers()
@@ -105,8 +104,8 @@ class Stages:
                 for name, function in self.stages.items():
                     take(name, function)
             for thread, seconds in of_workers().items():
-                spent = seconds - before.get(thread, 0.0)
-                workers[thread] = workers.get(thread, 0.0) + spent
+                more = seconds - before.get(thread, 0.0)
+                workers[thread] = workers.get(thread, 0.0) + more
             if self.sort:
                 take("sort", self.sort)
         ns = 1e9 / (SORTS * STEPS * self.particles)
@@ -132,20 +131,21 @@ class Steps:
     def about(self):
         return {"particles": self.solver.particles.count, "cells": list(self.solver.grid.cells)}
 
-    def turn(self):
-        """CPU and wall time [ns per particle-step] of the steps from one sort to the next and of
-        that sort, or where that would take long of some of them and their share of a sort."""
-        solver, steps = self.solver, 0
-        before, drift = now(), solver.drift
-        while solver.drift < 0.99 and (steps < 3 or (now() - before).wall < SECONDS):
+    def _steps_to_sort(self):
+        """The steps from one sort to the next, or where that would take long some of them."""
+        steps, began = 0, time.perf_counter()
+        while self.solver.drift < 0.99 and (steps < 3 or time.perf_counter() - began < SECONDS):
             self._step()
             steps += 1
-        stepped = now() - before
-        part = (solver.drift - drift) / 0.99
+        return steps
+
+    def turn(self):
+        """CPU and wall time [ns per particle-step] of steps and of their share of a sort."""
+        solver, drift = self.solver, self.solver.drift
+        stepped = spent(self._steps_to_sort)
+        part, steps = (solver.drift - drift) / 0.99, stepped.result
         solver.drift = np.inf
-        before = now()
-        solver.sort_if_due()
-        sorted_in = now() - before
+        sorted_in = spent(solver.sort_if_due)
         ns = 1e9 / (steps * solver.particles.count)
         return {
             "cpu": ns * (stepped.cpu + part * sorted_in.cpu),
@@ -192,10 +192,8 @@ class SmallScene:
         for name, function in (("whole", self._whole), ("by_stage", self._by_stage)):
             times = []
             for _ in range(SCENES):
-                before = now()
-                steps = function()
-                spent = now() - before
-                times.append([1e6 * seconds / steps for seconds in spent])
+                cpu, wall, steps = spent(function)
+                times.append([1e6 * cpu / steps, 1e6 * wall / steps])
             found[name] = {"cpu": [c for c, _ in times], "wall": [w for _, w in times]}
         return found
 

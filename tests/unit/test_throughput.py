@@ -17,12 +17,13 @@ def bench(monkeypatch):
     import clocks  # pyright: ignore[reportMissingImports]
     import curves  # pyright: ignore[reportMissingImports]
     import limits  # pyright: ignore[reportMissingImports]
+    import stopwatch  # pyright: ignore[reportMissingImports]
     import throughput  # pyright: ignore[reportMissingImports]
     import workload  # pyright: ignore[reportMissingImports]
 
     return SimpleNamespace(
         allocation=allocation, clocks=clocks, curves=curves, limits=limits, main=throughput,
-        workload=workload,
+        stopwatch=stopwatch, workload=workload,
     )  # fmt: skip
 
 
@@ -72,11 +73,18 @@ def test_bytes_of_fields(bench, fast):
 def test_clock_of_the_processor(bench, fast):
     """Between 0.5 and 7 GHz, or None where latencies are not known; the time does not depend on
     what is computed, and grows with it: CPU and wall time of the chain are above 0."""
-    before = bench.clocks.now()
-    ghz = bench.clocks.clock_ghz()
-    spent = bench.clocks.now() - before
+    spent = bench.stopwatch.spent(bench.clocks.clock_ghz)
+    ghz = spent.result
     assert ghz is None or 0.5 < ghz < 7
-    assert ghz is None or min(spent) > 0
+    assert ghz is None or min(spent.cpu, spent.wall) > 0
+
+
+def test_a_pause_is_on_neither_clock(bench):
+    """A call that does nothing takes less than the pause behind it, at least once in twenty."""
+    calls = [bench.stopwatch.spent(lambda: 7) for _ in range(20)]
+    assert {call.result for call in calls} == {7}
+    for clock in ("cpu", "wall"):
+        assert 0 <= min(getattr(call, clock) for call in calls) < bench.stopwatch.PAUSE
 
 
 def test_empty_cells_around_the_same_block(bench):
