@@ -34,6 +34,13 @@ def is_active(i, grid: Template):
 
 
 @ti.func
+def periodic_image(k, axis: Template, grid: Template):
+    """Of node k along a periodic axis, which may have fewer cells than ghost nodes."""
+    cells, ghosts = ti.static(grid.cells[axis], grid.ghost)
+    return (k - ghosts + cells * ghosts) % cells + ghosts
+
+
+@ti.func
 def reflected(lanes, grid: Template, wall: Template):
     """The record of a node's mirror image behind a wall."""
     for d in ti.static(range(grid.dim)):
@@ -80,10 +87,10 @@ def exchange_along(
     start = line_start(j, axis, grid)
     stride, cells, ghosts = ti.static(grid.strides[axis], grid.cells[axis], grid.ghost)
     if ti.static(axis in grid.periodic):
-        for k in range(grid.shape[axis]):
-            if k < ghosts or k >= ghosts + cells:
-                image = (k - ghosts + cells * ghosts) % cells + ghosts
-                exchange(start + k * stride, start + image * stride, grid, None, fill, records)
+        for ghost in range(grid.shape[axis] - cells):
+            k = ghost if ghost < ghosts else ghost + cells
+            image = periodic_image(k, axis, grid)
+            exchange(start + k * stride, start + image * stride, grid, None, fill, records)
     for wall in ti.static([wall for wall in walls if wall.axis == axis]):
         at_wall = start + ti.static((ghosts + cells * wall.upper) * stride)
         outward = ti.static(stride if wall.upper else -stride)

@@ -6,6 +6,7 @@ import taichi as ti
 from ..runtime import Array, Template
 from ..stages import stage
 from .blocks import CHUNK
+from .ghosts import periodic_image
 from .stencil import first_node, index
 from .tiles import list_tiles, segment_of
 
@@ -115,6 +116,17 @@ def mark_around(chunk, grid: Template):
             grid.reached[near] = 1
 
 
+@ti.func
+def mark_images(chunk, axis: Template, grid: Template):
+    """The chunks where a periodic axis has the images of ghost nodes in this one."""
+    stride, ghosts, end = ti.static(grid.strides[axis], grid.ghost, grid.ghost + grid.cells[axis])
+    for i in range(chunk * CHUNK, ti.min((chunk + 1) * CHUNK, grid.nodes)):
+        k = i // stride % grid.extent[axis]
+        if k < ghosts or (k >= end and k < grid.shape[axis]):
+            image = i + (periodic_image(k, axis, grid) - k) * stride
+            grid.reached[image // CHUNK] = 1
+
+
 @ti.kernel
 def plan(particles: Template, grid: Template, reach: Array):
     """From occupied: reached and active.  From start[group, segment]: the tiles.  For the host:
@@ -125,8 +137,11 @@ def plan(particles: Template, grid: Template, reach: Array):
     for chunk in range(grid.chunks):
         if grid.occupied[chunk]:
             mark_around(chunk, grid)
-        if ti.static(grid.periodic):
-            grid.reached[chunk] = 1
+    for axis in ti.static(grid.periodic):  # in the order in which ghosts are folded
+        ti.loop_config(serialize=not grid.atomic)
+        for chunk in range(grid.chunks):
+            if grid.reached[chunk]:
+                mark_images(chunk, axis, grid)
     grid.active_count[None] = 0
     ti.loop_config(serialize=not grid.atomic)
     for chunk in range(grid.chunks):

@@ -72,6 +72,23 @@ def test_translation_by_a_cell(exact, rng, dim):
     assert close(H_moved, H_end)
 
 
+@pytest.mark.parametrize(("dim", "cells"), [(2, 96), pytest.param(3, 40, marks=pytest.mark.slow)])
+def test_through_the_ends_of_periodic_axes(exact, rng, dim, cells):
+    """The scene further along every axis, all of which close on themselves: the same motion across
+    corners and ends, and where only stencils reach over them, to nodes that no particle is near.
+    Only nodes near particles and their images are touched."""
+    x, v, V0 = cloud(rng, dim)
+    scale = CELLS[dim] / cells
+    x, V0 = scale * (x - x.mean(axis=0)) + 0.5, scale**dim * V0
+    mpm = solver(x, v, V0, cells, QuadraticBSpline, MLS, periodic=tuple(range(dim)))
+    x_end, H_end = run(mpm, x, v, V0)
+    for way in (0.5, 0.5 - 2 / cells):
+        x_moved, H_moved = run(mpm, (x + way) % 1.0, v, V0)
+        assert close((x_moved - x_end) % 1.0, way + 0 * x)
+        assert close(H_moved, H_end)
+        assert mpm.grid.active_count[None] < 0.5 * mpm.grid.chunks
+
+
 @pytest.mark.parametrize(
     ("basis", "transfer"),
     [(QuadraticBSpline, MLS), (CubicBSpline, MLS), (QuadraticBSpline, APIC), (GIMP, TPIC)],
