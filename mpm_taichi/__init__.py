@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .scene import Scene, load_scene
     from .simulation import Simulation
 
-__version__ = "0.7.0"
+__version__ = "0.8.0"
 __all__ = ["Scene", "Simulation", "__version__", "load_scene"]
 
 
