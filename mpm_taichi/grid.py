@@ -96,7 +96,7 @@ class Grid(NodeLayout):
         self.colors = 1 if atomic else COLORS if self.strips > 1 else 2
         # See kernels/blocks.py.
         self.gate, self.block, self.node_block = (1, 1, 1) if atomic else (GATE, BLOCK, CHUNK)
-        self.periodic = tuple(periodic)
+        self.periodic = tuple(sorted(periodic))  # as `folded`: images of images
         self.bounded = tuple(axis for axis in range(self.dim) if axis not in self.periodic)
         self.walled = tuple((wall.axis, wall.upper) for wall in walls)
         self.folded = folded_axes(basis, walls, self.periodic)
